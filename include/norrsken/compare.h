@@ -1,0 +1,40 @@
+// How far two images are apart.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "norrsken/image.h"
+
+namespace norrsken {
+
+/// Figures over all pixels of R, G, B. `reference` is the second image of `compare`.
+struct Comparison {
+  double mse = 0;      ///< mean squared error of linear radiance, over pixels and channels
+  double rel_mse = 0;  ///< mean of (a-b)^2 / (b^2 + 0.01), as in Rousselle et al. 2011
+  double psnr = 0;     ///< dB, of the tone-mapped images in [0,1]; infinity for equal images
+  double flip = 0;     ///< mean LDR-FLIP of the tone-mapped images (Andersson et al. 2020), 0 to 1
+  double mean_a = 0;   ///< mean of all channels
+  double mean_b = 0;
+
+  /// Pixel-wise test of "both estimate the same image", where at least one image carries `variance.R/G/B`
+  /// (the variance of the mean).
+  struct ZTest {
+    double passed_share = 0;   ///< share of pixel channels not rejected at the Sidak-corrected 1 % level
+    double mean_z[3] = {};     ///< z-score of the difference of the whole-image means, per channel
+    double rms_z = 0;          ///< root mean square of the pixel z-scores; 1 for honest variances and equal means
+  };
+  std::optional<ZTest> z_test;
+};
+
+struct CompareOptions {
+  ToneMapping tone;               ///< for PSNR and FLIP
+  double pixels_per_degree = 67;  ///< FLIP's viewing condition: 0.7 m from a 0.7 m wide 3840-pixel screen
+};
+
+/// Compares `a` with the reference `b`; both need R, G, B and one size, otherwise `error` says what differs.
+/// `difference`, if given, receives channels R, G, B = |a - b| and `flip`.
+IoStatus compare(const Image& a, const Image& b, const CompareOptions& options, Comparison& result,
+                 Image* difference = nullptr);
+
+}  // namespace norrsken

@@ -1,0 +1,51 @@
+// What is wrong with a scene, a command line or a file, told to the person who made it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace norrsken {
+
+/// A stretch of text in a file. Lines and columns count from 1, columns in bytes; line 0 means "the file as a
+/// whole" and an empty file name means "no file" (the command line, a built-in default).
+struct SourceLocation {
+  std::string file;
+  int line = 0;
+  int column = 0;
+  int length = 1;       ///< bytes to underline, at least 1
+  std::string excerpt;  ///< the whole offending line, without its line break; empty if there is none
+};
+
+struct Diagnostic {
+  enum class Severity { error, warning };
+  Severity severity = Severity::error;
+  std::string message;   ///< what was found, without a full stop: "unknown bsdf 'difuse'"
+  std::string accepted;  ///< what would have been accepted: "conductor, diffuse, twosided"; may be empty
+  SourceLocation location;
+};
+
+/// Collects complaints, so that one run tells as many of them as it can. Never prints.
+class Diagnostics {
+ public:
+  void error(SourceLocation location, std::string message, std::string accepted = {});
+  void warning(SourceLocation location, std::string message, std::string accepted = {});
+
+  bool has_errors() const { return error_count_ > 0; }
+  int error_count() const { return error_count_; }
+  const std::vector<Diagnostic>& all() const { return all_; }
+
+ private:
+  std::vector<Diagnostic> all_;
+  int error_count_ = 0;
+};
+
+/// The form in which a person reads a diagnostic, without a trailing line break:
+///
+///     room.xml:12:14: error: unknown bsdf 'difuse', did you mean 'diffuse'?
+///        12 |   <bsdf type="difuse"/>
+///           |              ^~~~~~
+///     accepted: conductor, diffuse, twosided
+std::string to_text(const Diagnostic& diagnostic);
+
+}  // namespace norrsken

@@ -1,0 +1,56 @@
+// Images as the library hands them out and takes them in: named float channels, and files of them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace norrsken {
+
+/// One plane of an image: `values[y * width + x]`, row 0 at the top.
+struct Channel {
+  std::string name;  ///< as in the EXR: "R", "G", "B", "variance.R", "depth.Z", "normal.X", "albedo.R", "id", ...
+  std::vector<float> values;
+};
+
+/// A stack of channels of one size. Radiance is linear sRGB.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<Channel> channels;
+  std::map<std::string, std::string> metadata;  ///< free text that EXR and PNG headers carry
+
+  const Channel* find(std::string_view name) const;
+  /// Adds a channel of zeros (or returns the one of that name).
+  Channel& channel(std::string_view name);
+};
+
+/// How linear radiance becomes the bytes of a PNG or JPEG.
+struct ToneMapping {
+  enum class Curve { srgb, filmic };
+  Curve curve = Curve::srgb;
+  float exposure = 0;  ///< in stops: radiance is multiplied by 2^exposure first
+};
+
+/// Thrown by nothing: errors come back as text. Empty means success.
+struct [[nodiscard]] IoStatus {
+  std::string error;
+  explicit operator bool() const { return error.empty(); }
+};
+
+/// Writes by file extension: .exr (every channel, float32), .png (8 bit) and .jpg (tone-mapped R, G, B).
+/// The file is written under a temporary name in the same folder and renamed, so a reader never sees half of it.
+/// Errors: unknown extension, unwritable folder, full disk, size beyond the format.
+IoStatus write_image(const std::string& path, const Image& image, const ToneMapping& tone = {});
+
+/// Reads any format that OpenImageIO knows as float channels; 8-bit colour is decoded from sRGB to linear.
+IoStatus read_image(const std::string& path, Image& image);
+
+/// Whether `write_image` knows the extension, asked before a long render: empty, or what is wrong and accepted.
+/// Also checks that the folder exists and can be written to.
+IoStatus check_writable(const std::string& path);
+
+}  // namespace norrsken

@@ -1,0 +1,71 @@
+// Rendering a scene: settings, progress, cancellation, pixels.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "norrsken/image.h"
+#include "norrsken/scene.h"
+
+namespace norrsken {
+
+struct RenderOptions {
+  std::optional<int> samples_per_pixel;  ///< in place of the scene's
+  std::uint64_t seed = 0;
+  int threads = 0;                       ///< 0: one per hardware thread
+  std::string isa = "auto";              ///< auto, scalar, sse4.2, avx2, avx512
+  std::string accelerator = "auto";      ///< auto, planes, moller_trumbore, embree
+  bool features = false;                 ///< also render depth, normal, albedo and object id of the first hits
+};
+
+struct RenderProgress {
+  std::uint64_t samples_done = 0, samples_total = 0;  ///< camera samples
+  double elapsed_seconds = 0;                         ///< since run() began
+  double samples_per_second = 0;
+  double relative_error = -1;  ///< estimated RMSE of the image over its mean; -1 while unknown
+};
+
+/// A sample whose radiance was NaN or infinite and was left out of its pixel's mean.
+struct DroppedSample {
+  int x = 0, y = 0;
+  std::uint32_t sample = 0;
+};
+
+struct RenderStatistics {
+  std::uint64_t samples = 0;        ///< camera samples taken
+  std::uint64_t closest_rays = 0;   ///< rays asked for their closest hit
+  std::uint64_t shadow_rays = 0;    ///< rays asked whether anything is in between
+  std::uint64_t dropped_samples = 0;
+  std::vector<DroppedSample> dropped;  ///< the first few of them
+  double seconds = 0;
+  double relative_error = -1;
+  bool cancelled = false;
+  std::string isa, accelerator;
+  int threads = 0, lanes = 0;
+};
+
+/// One rendering of one scene. `run` may be called once; `cancel` from any thread or a signal handler.
+class Render {
+ public:
+  /// Errors (unknown instruction set, one that this processor lacks, no samples) go to `diagnostics`.
+  static std::unique_ptr<Render> create(const Scene& scene, const RenderOptions& options, Diagnostics& diagnostics);
+  virtual ~Render() = default;
+
+  /// Renders until all samples are taken or `cancel` is called. `on_progress` is called from the calling thread
+  /// about ten times a second and once at the end.
+  virtual RenderStatistics run(const std::function<void(const RenderProgress&)>& on_progress = {}) = 0;
+  virtual void cancel() noexcept = 0;
+
+  /// What has been rendered so far: R, G, B; `layers` adds `samples`, `variance.R/G/B` (of the mean), `error.R/G/B`
+  /// (its root) and, with RenderOptions::features, `depth.Z`, `normal.X/Y/Z`, `albedo.R/G/B`, `id`.
+  virtual Image image(bool layers = false) const = 0;
+};
+
+/// The instruction sets that this build has and this processor can run, best first: "avx512", "avx2", ...
+std::vector<std::string> usable_isas();
+
+}  // namespace norrsken

@@ -1,0 +1,65 @@
+// Loading a scene, and asking what is in it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "norrsken/diagnostics.h"
+
+namespace norrsken {
+
+struct LoadedScene;  // the scene as tables; private to the library
+
+/// What the command line may say over the scene file's head.
+struct LoadOptions {
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< -Dname=value, in order, later ones win
+  std::optional<std::string> integrator;                        ///< plugin name in place of the file's
+  std::optional<std::string> sampler;
+  std::optional<int> width, height;
+};
+
+/// What `norrsken info` tells.
+struct SceneInfo {
+  struct Item {
+    std::string kind;    ///< "bsdf", "shape", "emitter", "sensor", ...
+    std::string plugin;  ///< "diffuse", "obj", ...
+    std::string id;
+    std::string detail;  ///< one line of figures: "24 triangles", "radius 1.5"
+  };
+  std::vector<Item> items;
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< the `$parameters` in use and their values
+  std::uint64_t triangles = 0, spheres = 0, lights = 0;
+  double bounds_min[3] = {}, bounds_max[3] = {};
+  int width = 0, height = 0, samples_per_pixel = 0, max_depth = 0, rr_depth = 0, emitter_samples = 0;
+  std::string integrator, sampler, accelerator;
+  std::uint64_t table_bytes = 0;
+};
+
+struct BuiltinScene {
+  std::string name, description;
+};
+
+/// An immutable scene, cheap to copy.
+class Scene {
+ public:
+  /// Loads a Mitsuba 3 XML file, or a built-in scene by name. Complaints go to `diagnostics`; the result is empty
+  /// if there was an error.
+  static std::optional<Scene> load(const std::string& path_or_name, const LoadOptions& options,
+                                   Diagnostics& diagnostics);
+
+  SceneInfo info() const;
+  const LoadedScene& tables() const { return *tables_; }
+
+ private:
+  explicit Scene(std::shared_ptr<const LoadedScene> tables) : tables_(std::move(tables)) {}
+  std::shared_ptr<const LoadedScene> tables_;
+};
+
+std::vector<BuiltinScene> builtin_scenes();
+
+}  // namespace norrsken

@@ -1,0 +1,25 @@
+// From the description to the tables: gives every plugin name its meaning.
+#pragma once
+
+#include <optional>
+
+#include "norrsken/diagnostics.h"
+#include "norrsken/scene.h"
+#include "scene/description.h"
+#include "scene/file_system.h"
+#include "tables/scene_tables.h"
+
+namespace norrsken {
+
+/// A scene ready to be rendered, with the names that its users know its parts by.
+struct LoadedScene {
+  SceneTables tables;
+  SceneInfo info;  ///< all but `accelerator`, which is chosen when rendering
+};
+
+/// Compiles a description. Overrides in `options` (integrator, sampler, size) win over the scene's own nodes; their
+/// complaints have no location. Empty if there was any error.
+std::optional<LoadedScene> compile(const Description& description, const FileSystem& files, const LoadOptions& options,
+                                   Diagnostics& diagnostics);
+
+}  // namespace norrsken

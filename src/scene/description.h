@@ -1,0 +1,62 @@
+// The scene as the file told it: typed nodes that know where they stood. No meaning yet: plugins give it.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "norrsken/diagnostics.h"
+
+namespace norrsken {
+
+/// A value with a name inside a node: `<float name="fov" value="45"/>`.
+struct Property {
+  struct Rgb {
+    glm::dvec3 value;  ///< linear sRGB
+  };
+  struct Spectrum {
+    std::vector<std::pair<double, double>> samples;  ///< (wavelength in nm, value), ascending; one pair (0, v): constant
+  };
+  struct Vector {
+    glm::dvec3 value;  ///< `point` and `vector`
+  };
+  /// Column-vector convention: world = matrix * local.
+  using Transform = glm::dmat4;
+
+  std::string name;
+  std::variant<bool, std::int64_t, double, std::string, Rgb, Spectrum, Vector, Transform> value;
+  std::string type;         ///< the word the file used: "float", "rgb", ...
+  SourceLocation location;  ///< of the value
+};
+
+/// A plugin instance: `<bsdf type="diffuse" id="white"> ... </bsdf>`.
+struct Node {
+  std::string kind;    ///< "scene", "bsdf", "shape", "emitter", "sensor", "film", "sampler", "rfilter", "integrator", ...
+  std::string plugin;  ///< the `type` attribute; empty for the scene itself
+  std::string id;
+  std::string name;    ///< the `name` attribute, if the child was given one; a `ref` gives its own name to the child
+  SourceLocation location;         ///< of the element
+  SourceLocation plugin_location;  ///< of the `type` value
+  std::vector<Property> properties;
+  /// Children in order of appearance; a `ref` shares the node it refers to.
+  struct Child {
+    std::string name;  ///< name given at the place of use; may be empty
+    std::shared_ptr<const Node> node;
+    SourceLocation location;  ///< of the place of use
+  };
+  std::vector<Child> children;
+};
+
+/// A whole scene file with its includes, references and parameters resolved.
+struct Description {
+  std::shared_ptr<const Node> scene;
+  /// Folders in which file names are looked up: beside the naming file is tried first (see `resolve_file`), then these.
+  std::vector<std::string> search_paths;
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< `$name` and its final value, in order of definition
+};
+
+}  // namespace norrsken

@@ -1,0 +1,29 @@
+// Where scene files and what they name are read from: the disk, or the scenes built into the program.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace norrsken {
+
+/// Read-only access to files by path. A path that begins with `builtin:` means a file compiled into the program.
+class FileSystem {
+ public:
+  virtual ~FileSystem() = default;
+  /// The whole file, or empty with `error` set ("no such file", "is a folder", "is not a regular file", ...).
+  /// Devices, pipes and folders are refused, never waited for.
+  virtual std::optional<std::string> read(const std::string& path, std::string& error) const;
+  virtual bool exists(const std::string& path) const;
+};
+
+/// `name` looked up beside `beside` (the file that names it), then in each of `search_paths`; empty if nowhere.
+std::string resolve_file(const FileSystem& files, const std::string& name, const std::string& beside,
+                         const std::vector<std::string>& search_paths);
+
+/// Files compiled in: (path below scenes/, contents).
+std::vector<std::pair<std::string_view, std::string_view>> builtin_files();
+
+}  // namespace norrsken

@@ -1,0 +1,66 @@
+// Typed reading of a node's parameters by the plugin that it names.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/description.h"
+
+namespace norrsken {
+
+class FileSystem;
+
+/// A plugin asks for its parameters by name; what it asks for is what is accepted. Every complaint (wrong type, out of
+/// range, not finite, missing) goes to the diagnostics and the default is returned, so that reading goes on.
+/// `finish` complains about what was given but never asked for.
+class Parameters {
+ public:
+  Parameters(const Node& node, const Description& description, const FileSystem& files, Diagnostics& diagnostics);
+
+  const Node& node() const { return node_; }
+  Diagnostics& diagnostics() const { return diagnostics_; }
+
+  bool has(std::string_view name) const;  ///< does not count as asking
+  bool boolean(std::string_view name, bool fallback);
+  /// Inclusive bounds.
+  std::int64_t integer(std::string_view name, std::int64_t fallback, std::int64_t min, std::int64_t max);
+  /// Also takes an integer. Inclusive bounds; always finite.
+  double number(std::string_view name, double fallback, double min, double max);
+  std::string text(std::string_view name, std::string_view fallback);
+  /// One of the words; otherwise an error that lists them.
+  std::string choice(std::string_view name, std::string_view fallback, std::initializer_list<std::string_view> words);
+  /// Linear sRGB from `rgb`, or from `spectrum`; components within [min, max].
+  /// `emission`: a spectrum is a source's (weighed with the CIE curves as it is), otherwise a reflectance.
+  glm::dvec3 color(std::string_view name, glm::dvec3 fallback, double min, double max);
+  glm::dvec3 point(std::string_view name, glm::dvec3 fallback);
+  glm::dmat4 transform(std::string_view name);  ///< identity if not given; singular ones are an error
+  /// An existing file's path as found in the search order; empty after a complaint.
+  std::string file(std::string_view name);
+
+  /// The child nodes of one kind, in order; counts as asking for them.
+  std::vector<const Node::Child*> children(std::string_view kind);
+  /// At most one child of that kind; more are an error.
+  const Node::Child* child(std::string_view kind);
+
+  /// Where to point for a complaint about parameter `name` (the node itself if it was not given).
+  SourceLocation where(std::string_view name) const;
+  void error(std::string_view name, std::string message, std::string accepted = {});
+
+  /// Call last: unused properties and children become errors that list what was asked for.
+  void finish();
+
+ private:
+  const Property* find(std::string_view name);
+
+  const Node& node_;
+  const Description& description_;
+  const FileSystem& files_;
+  Diagnostics& diagnostics_;
+  std::set<std::string, std::less<>> asked_names_, asked_kinds_;
+};
+
+}  // namespace norrsken
