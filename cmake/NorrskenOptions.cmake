@@ -1,5 +1,12 @@
 # One interface target with what every target of the project is compiled with, and helpers to declare targets.
 
+# A compiler cache is used where there is one.
+find_program(NORRSKEN_CCACHE ccache)
+mark_as_advanced(NORRSKEN_CCACHE)
+if(NORRSKEN_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${NORRSKEN_CCACHE}")
+endif()
+
 add_library(norrsken_options INTERFACE)
 target_compile_options(norrsken_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
@@ -14,7 +21,8 @@ if(NORRSKEN_SANITIZE)
   target_link_options(norrsken_options INTERFACE -fsanitize=${NORRSKEN_SANITIZE})
 endif()
 
-# norrsken_layer(NAME SOURCES ... LINK ...): the static library norrsken_NAME of one folder below src/.
+# norrsken_layer(NAME SOURCES ... LINK ...): the static library norrsken_NAME of one folder below src/. The property
+# NORRSKEN_LAYERS lists all of them.
 function(norrsken_layer name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(norrsken_${name} STATIC ${ARG_SOURCES})
@@ -22,9 +30,11 @@ function(norrsken_layer name)
     ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
   target_link_libraries(norrsken_${name} PUBLIC ${ARG_LINK} PRIVATE norrsken_options)
   set_target_properties(norrsken_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set_property(GLOBAL APPEND PROPERTY NORRSKEN_LAYERS norrsken_${name})
 endfunction()
 
-# norrsken_test(NAME SOURCES ... LINK ...): a GoogleTest program, one ctest case per test.
+# norrsken_test(NAME SOURCES ... LINK ... [LABELS slow]): a GoogleTest program, one ctest case per test. Programs whose
+# tests take longer than a few seconds are labelled `slow`: `make check` and the sanitizers leave them out.
 function(norrsken_test name)
   if(NOT NORRSKEN_BUILD_TESTS)
     return()

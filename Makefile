@@ -1,0 +1,77 @@
+# The front door: `make` says what there is. Everything else is CMake (CMakePresets.json) and scripts/.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+MAKEFLAGS += --no-print-directory
+
+JOBS ?= $(shell nproc)
+SCENE ?= hexagon_room
+IMAGE ?= out/$(notdir $(basename $(SCENE))).png
+ARGS ?=
+RELEASE := build/release
+
+.PHONY: help
+help:  ## say what there is
+	@echo "usage: make TARGET [JOBS=N]"
+	@sed -n 's/^\([a-z][a-z-]*\):.*## \(.*\)/  \1\t\2/p' $(MAKEFILE_LIST) | expand -t 14
+
+.PHONY: render
+render: build  ## build Norrsken and render the hexagon room (SCENE=..., IMAGE=..., ARGS="--spp 64")
+	@mkdir -p "$(dir $(IMAGE))"
+	$(RELEASE)/norrsken render "$(SCENE)" -o "$(IMAGE)" $(ARGS)
+	@echo "The picture is $(abspath $(IMAGE))"
+
+.PHONY: build
+build:  ## install what is missing and build build/release/norrsken
+	@scripts/install_dependencies.sh build
+	cmake --preset release
+	cmake --build $(RELEASE) --target norrsken_cli -j $(JOBS)
+
+.PHONY: test
+test: release-all  ## everything: warnings as errors, render, all tests, style, sanitizers
+	@mkdir -p out
+	$(RELEASE)/norrsken render hexagon_room -o out/hexagon_room.png
+	ctest --test-dir $(RELEASE) -j $(JOBS) --output-on-failure
+	scripts/check_format.sh
+	scripts/check_tidy.py --build $(RELEASE) -j $(JOBS)
+	$(MAKE) sanitize
+
+.PHONY: check
+check: release-all  ## the quick part of `test`: no slow tests, no clang-tidy, no sanitizers
+	ctest --test-dir $(RELEASE) -j $(JOBS) --output-on-failure -LE slow
+	scripts/check_format.sh
+
+.PHONY: sanitize
+sanitize: asan-ubsan tsan  ## the quick tests under the address, undefined-behaviour and thread sanitizers
+
+.PHONY: asan-ubsan tsan
+asan-ubsan tsan:
+	@scripts/install_dependencies.sh test
+	cmake --preset $@ -DNORRSKEN_WARNINGS_AS_ERRORS=ON
+	cmake --build build/$@ -j $(JOBS)
+	ctest --preset $@ -j $(JOBS)
+
+.PHONY: release-all
+release-all:
+	@scripts/install_dependencies.sh test
+	cmake --preset release -DNORRSKEN_WARNINGS_AS_ERRORS=ON
+	cmake --build $(RELEASE) -j $(JOBS)
+
+.PHONY: bench
+bench: build  ## measure the hexagon room and every Google Benchmark
+	cmake --build $(RELEASE) -j $(JOBS)
+	$(RELEASE)/norrsken bench hexagon_room -Dshadow_rays=1 -Dbounces=3 --sampler independent
+	for program in $(RELEASE)/benchmarks/*_benchmark; do "$$program"; done
+
+.PHONY: format
+format:  ## rewrite the sources in the project's format
+	@scripts/install_dependencies.sh test
+	scripts/check_format.sh --fix
+
+.PHONY: tidy
+tidy: release-all  ## clang-tidy over every file
+	scripts/check_tidy.py --build $(RELEASE) -j $(JOBS) --all
+
+.PHONY: clean
+clean:  ## remove what was built and rendered
+	rm -rf build out

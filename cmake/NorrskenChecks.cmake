@@ -1,0 +1,35 @@
+# The checks of the sources and objects as ctest cases: include arrows, symbols of the kernels, the installed package.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+function(norrsken_script_test name)
+  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMAND_EXPAND_LISTS)
+endfunction()
+
+set(scripts ${PROJECT_SOURCE_DIR}/scripts)
+norrsken_script_test(check_includes.self_test ${scripts}/check_includes.py --self-test)
+norrsken_script_test(check_includes ${scripts}/check_includes.py ${PROJECT_SOURCE_DIR})
+norrsken_script_test(check_symbols.self_test ${scripts}/check_symbols.py --self-test ${CMAKE_CXX_COMPILER})
+
+# Without optimisation, or instrumented, the compiler emits a copy of every inline function of the standard library:
+# true of the objects, of no use to users.
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT NORRSKEN_SANITIZE)
+  foreach(set IN ITEMS scalar sse42 avx2 avx512)
+    if(TARGET norrsken_kernels_${set})
+      norrsken_script_test(check_symbols.${set} ${scripts}/check_symbols.py ${set}
+        $<TARGET_OBJECTS:norrsken_kernels_${set}>)
+    endif()
+  endforeach()
+endif()
+
+# Installs into the build folder and builds a program against what was installed.
+if(TARGET norrsken AND NOT NORRSKEN_SANITIZE)
+  set(prefix ${PROJECT_BINARY_DIR}/consumer/prefix)
+  add_test(NAME consumer.install COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${prefix})
+  add_test(NAME consumer.build_and_run COMMAND ${CMAKE_CTEST_COMMAND}
+    --build-and-test ${PROJECT_SOURCE_DIR}/tests/consumer ${PROJECT_BINARY_DIR}/consumer/build
+    --build-generator ${CMAKE_GENERATOR}
+    --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release
+    --test-command consumer)
+  set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP installed)
+  set_tests_properties(consumer.build_and_run PROPERTIES FIXTURES_REQUIRED installed TIMEOUT 300)
+endif()
