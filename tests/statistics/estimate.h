@@ -1,0 +1,61 @@
+// Means with standard errors, from independent replicates of an image.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/statistics/picture.h"
+
+namespace norrsken::statistics {
+
+/// A mean and the variance of that mean, as told by `replicates` independent values. A known value has variance 0
+/// and no replicates.
+struct Estimate {
+  double mean = 0;
+  double variance = 0;
+  int replicates = 0;
+
+  static Estimate known(double value) { return {value, 0, 0}; }
+  /// At least two values.
+  static Estimate from_replicates(std::span<const double> values);
+};
+
+/// A rectangle of pixels, [x0, x1) x [y0, y1), over which images are averaged before they are compared.
+struct Region {
+  std::string sort;  ///< "whole image", "4 x 4 blocks": summaries name the worst of each sort
+  std::string name;
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  double resolution = 0;  ///< the smallest relative bias that a comparison here has to be able to see
+};
+
+/// An image cut into `n` x `n` blocks.
+struct Grid {
+  int n = 1;
+  double resolution = 0;
+};
+std::vector<Region> regions_of(int width, int height, std::span<const Grid> grids);
+
+/// The whole image and its quadrants, which must resolve a bias of 0.5 %, and 4 x 4 blocks, which must resolve 1 %.
+std::vector<Region> standard_regions(int width, int height);
+
+/// Mean of the pixels of a region.
+Picture::Pixel region_mean(const Picture& picture, const Region& region);
+
+/// Collects replicates of one image and tells the mean of every region and channel.
+class RegionMeans {
+ public:
+  explicit RegionMeans(std::vector<Region> regions);
+
+  void add(const Picture& replicate);
+
+  const std::vector<Region>& regions() const { return regions_; }
+  Estimate estimate(std::size_t region, std::size_t channel) const;
+
+ private:
+  std::vector<Region> regions_;
+  std::vector<std::array<std::vector<double>, 3>> replicates_;  ///< per region and channel
+};
+
+}  // namespace norrsken::statistics
