@@ -13,8 +13,9 @@ struct SourceLocation {
   std::string file;
   int line = 0;
   int column = 0;
-  int length = 1;       ///< bytes to underline, at least 1
-  std::string excerpt;  ///< the whole offending line, without its line break; empty if there is none
+  int length = 1;          ///< bytes to underline, at least 1
+  std::string excerpt;     ///< the offending line without its line break, or the part of a long one around the place
+  int excerpt_column = 1;  ///< column of the excerpt's first byte
 };
 
 struct Diagnostic {
@@ -25,7 +26,8 @@ struct Diagnostic {
   SourceLocation location;
 };
 
-/// Collects complaints, so that one run tells as many of them as it can. Never prints.
+/// Collects complaints, so that one run tells as many of them as it can. Never prints. Keeps the first hundred and
+/// counts the rest: a broken file must not fill the memory with its complaints.
 class Diagnostics {
  public:
   void error(SourceLocation location, std::string message, std::string accepted = {});
@@ -42,10 +44,13 @@ class Diagnostics {
 
 /// The form in which a person reads a diagnostic, without a trailing line break:
 ///
-///     room.xml:12:14: error: unknown bsdf 'difuse', did you mean 'diffuse'?
+///     room.xml:12:15: error: unknown bsdf 'difuse', did you mean 'diffuse'?
 ///        12 |   <bsdf type="difuse"/>
-///           |              ^~~~~~
+///           |               ^~~~~~
 ///     accepted: conductor, diffuse, twosided
+///
+/// Tabs become spaces, control characters are made harmless, and of a long line only the part around the place is
+/// shown, with "..." for the rest.
 std::string to_text(const Diagnostic& diagnostic);
 
 }  // namespace norrsken

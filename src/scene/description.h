@@ -1,11 +1,12 @@
 // The scene as the file told it: typed nodes that know where they stood. No meaning yet: plugins give it.
 #pragma once
 
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -13,13 +14,17 @@
 
 namespace norrsken {
 
+/// Coordinates and matrix elements beyond this are refused: their squares must fit a float.
+inline constexpr double kMaxCoordinate = 1e15;
+
 /// A value with a name inside a node: `<float name="fov" value="45"/>`.
 struct Property {
   struct Rgb {
     glm::dvec3 value;  ///< linear sRGB
   };
   struct Spectrum {
-    std::vector<std::pair<double, double>> samples;  ///< (wavelength in nm, value), ascending; one pair (0, v): constant
+    std::vector<std::pair<double, double>>
+        samples;  ///< (wavelength in nm, value), ascending; one pair (0, v): constant
   };
   struct Vector {
     glm::dvec3 value;  ///< `point` and `vector`
@@ -29,20 +34,23 @@ struct Property {
 
   std::string name;
   std::variant<bool, std::int64_t, double, std::string, Rgb, Spectrum, Vector, Transform> value;
-  std::string type;         ///< the word the file used: "float", "rgb", ...
-  SourceLocation location;  ///< of the value
+  std::string type;              ///< the word the file used: "float", "rgb", ...
+  SourceLocation location;       ///< of the value
+  SourceLocation name_location;  ///< of the name
 };
 
 /// A plugin instance: `<bsdf type="diffuse" id="white"> ... </bsdf>`.
 struct Node {
-  std::string kind;    ///< "scene", "bsdf", "shape", "emitter", "sensor", "film", "sampler", "rfilter", "integrator", ...
+  std::string kind;  ///< "scene", "bsdf", "shape", "emitter", "sensor", "film", "sampler", "rfilter", "integrator", ...
   std::string plugin;  ///< the `type` attribute; empty for the scene itself
   std::string id;
-  std::string name;    ///< the `name` attribute, if the child was given one; a `ref` gives its own name to the child
+  std::string name;  ///< the `name` attribute, if the child was given one; a `ref` gives its own name to the child
   SourceLocation location;         ///< of the element
   SourceLocation plugin_location;  ///< of the `type` value
   std::vector<Property> properties;
-  /// Children in order of appearance; a `ref` shares the node it refers to.
+  std::vector<std::string> unreadable;  ///< names of properties that were given, but wrongly: complained about already
+  /// Children in order of appearance; a `ref` shares the node it refers to. There are no cycles, but a node that is
+  /// referred to in many places is reached by many paths: whoever walks the tree should treat each node once.
   struct Child {
     std::string name;  ///< name given at the place of use; may be empty
     std::shared_ptr<const Node> node;

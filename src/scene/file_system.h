@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace norrsken {
@@ -14,10 +15,14 @@ class FileSystem {
  public:
   virtual ~FileSystem() = default;
   /// The whole file, or empty with `error` set ("no such file", "is a folder", "is not a regular file", ...).
-  /// Devices, pipes and folders are refused, never waited for.
+  /// Devices, pipes and folders are refused, never waited for; so are files above 4 GiB.
   virtual std::optional<std::string> read(const std::string& path, std::string& error) const;
+  /// Whether there is a file or a folder of that name.
   virtual bool exists(const std::string& path) const;
 };
+
+/// The folder part of a path with its last slash: "scenes/", "builtin:room/", "builtin:"; empty for the current one.
+std::string folder_of(const std::string& path);
 
 /// `name` looked up beside `beside` (the file that names it), then in each of `search_paths`; empty if nowhere.
 std::string resolve_file(const FileSystem& files, const std::string& name, const std::string& beside,

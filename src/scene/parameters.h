@@ -1,8 +1,8 @@
 // Typed reading of a node's parameters by the plugin that it names.
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -33,11 +33,11 @@ class Parameters {
   std::string text(std::string_view name, std::string_view fallback);
   /// One of the words; otherwise an error that lists them.
   std::string choice(std::string_view name, std::string_view fallback, std::initializer_list<std::string_view> words);
-  /// Linear sRGB from `rgb`, or from `spectrum`; components within [min, max].
-  /// `emission`: a spectrum is a source's (weighed with the CIE curves as it is), otherwise a reflectance.
-  glm::dvec3 color(std::string_view name, glm::dvec3 fallback, double min, double max);
+  /// Linear sRGB from `rgb`, `spectrum` or a grey `float`; components, or the values of the spectrum, within [min,
+  /// max]. `emission`: a spectrum is a light's, otherwise a reflectance (see color/spectrum.h).
+  glm::dvec3 color(std::string_view name, glm::dvec3 fallback, double min, double max, bool emission = false);
   glm::dvec3 point(std::string_view name, glm::dvec3 fallback);
-  glm::dmat4 transform(std::string_view name);  ///< identity if not given; singular ones are an error
+  glm::dmat4 transform(std::string_view name);  ///< identity if not given; singular or projective ones are an error
   /// An existing file's path as found in the search order; empty after a complaint.
   std::string file(std::string_view name);
 
@@ -55,6 +55,9 @@ class Parameters {
 
  private:
   const Property* find(std::string_view name);
+  /// The property if it has one of the types; a complaint if it has another or is a child node.
+  template <typename... Types>
+  const Property* find_as(std::string_view name, std::string_view accepted);
 
   const Node& node_;
   const Description& description_;

@@ -1,0 +1,109 @@
+#include "norrsken/diagnostics.h"
+
+#include <gtest/gtest.h>
+
+namespace norrsken {
+namespace {
+
+SourceLocation at(int line, int column, int length, std::string excerpt, int excerpt_column = 1) {
+  return {"room.xml", line, column, length, std::move(excerpt), excerpt_column};
+}
+
+std::string text_of(SourceLocation location, std::string message = "bad", std::string accepted = {}) {
+  return to_text({Diagnostic::Severity::error, std::move(message), std::move(accepted), std::move(location)});
+}
+
+TEST(Diagnostics, TheWholeForm) {
+  EXPECT_EQ(text_of(at(12, 15, 6, R"(  <bsdf type="difuse"/>)"), "unknown bsdf 'difuse', did you mean 'diffuse'?",
+                    "conductor, diffuse, twosided"),
+            R"(room.xml:12:15: error: unknown bsdf 'difuse', did you mean 'diffuse'?
+   12 |   <bsdf type="difuse"/>
+      |               ^~~~~~
+accepted: conductor, diffuse, twosided)");
+}
+
+TEST(Diagnostics, LeavesOutWhatIsNotKnown) {
+  EXPECT_EQ(text_of({}), "error: bad");
+  EXPECT_EQ(text_of(at(0, 0, 1, "")), "room.xml: error: bad");
+  EXPECT_EQ(text_of(at(3, 0, 1, "")), "room.xml:3: error: bad");
+  EXPECT_EQ(text_of(at(3, 7, 1, "")), "room.xml:3:7: error: bad");
+  EXPECT_EQ(to_text({Diagnostic::Severity::warning, "odd", "", {}}), "warning: odd");
+}
+
+TEST(Diagnostics, TabsKeepTheMarkAligned) {
+  EXPECT_EQ(text_of(at(1, 4, 2, "\ta\txy")), R"(room.xml:1:4: error: bad
+    1 |     a   xy
+      |         ^~)");
+}
+
+TEST(Diagnostics, ColumnsCountBytesButTheMarkStandsUnderTheCharacter) {
+  // U+00E5 is one column wide, U+6F22 two.
+  EXPECT_EQ(text_of(at(1, 6, 1, "\xC3\xA5\xE6\xBC\xA2x")),
+            "room.xml:1:6: error: bad\n"
+            "    1 | \xC3\xA5\xE6\xBC\xA2x\n"
+            "      |    ^");
+  EXPECT_EQ(text_of(at(1, 3, 3, "\xC3\xA5\xE6\xBC\xA2x")),
+            "room.xml:1:3: error: bad\n"
+            "    1 | \xC3\xA5\xE6\xBC\xA2x\n"
+            "      |  ^~");
+}
+
+TEST(Diagnostics, APlaceBehindTheLineIsMarkedThere) {
+  EXPECT_EQ(text_of(at(1, 4, 1, "abc")), R"(room.xml:1:4: error: bad
+    1 | abc
+      |    ^)");
+}
+
+TEST(Diagnostics, LongLinesAreShownAroundThePlace) {
+  const std::string line = std::string(200, 'a') + "XY" + std::string(200, 'b');
+  EXPECT_EQ(text_of(at(1, 201, 2, line)),
+            "room.xml:1:201: error: bad\n"
+            "    1 | ..." +
+                std::string(33, 'a') + "XY" + std::string(65, 'b') +
+                "...\n"
+                "      |    " +
+                std::string(33, ' ') + "^~");
+  const std::string early = "XY" + std::string(200, 'b');
+  EXPECT_EQ(text_of(at(1, 1, 2, early)),
+            "room.xml:1:1: error: bad\n"
+            "    1 | XY" +
+                std::string(98, 'b') +
+                "...\n"
+                "      | ^~");
+}
+
+TEST(Diagnostics, AnExcerptThatBeginsLaterInTheLineSaysSo) {
+  EXPECT_EQ(text_of(at(1, 1003, 1, "abXcd", 1001)), R"(room.xml:1:1003: error: bad
+    1 | ...abXcd
+      |      ^)");
+}
+
+TEST(Diagnostics, TerminalSequencesInFilesAreHarmless) {
+  EXPECT_EQ(text_of(at(1, 2, 1, "\x1B[2J"), "found '\x1B[2J'"),
+            "room.xml:1:2: error: found '\xEF\xBF\xBD[2J'\n"
+            "    1 | \xEF\xBF\xBD[2J\n"
+            "      |  ^");
+}
+
+TEST(Diagnostics, CountsErrorsNotWarnings) {
+  Diagnostics diagnostics;
+  diagnostics.warning({}, "odd");
+  EXPECT_FALSE(diagnostics.has_errors());
+  diagnostics.error({}, "bad", "good");
+  EXPECT_TRUE(diagnostics.has_errors());
+  EXPECT_EQ(diagnostics.error_count(), 1);
+  ASSERT_EQ(diagnostics.all().size(), 2u);
+  EXPECT_EQ(diagnostics.all()[1].accepted, "good");
+}
+
+TEST(Diagnostics, KeepsAHundredAndCountsTheRest) {
+  Diagnostics diagnostics;
+  for (int i = 0; i < 1000; ++i) diagnostics.error({}, "bad");
+  for (int i = 0; i < 1000; ++i) diagnostics.warning({}, "odd");
+  EXPECT_EQ(diagnostics.error_count(), 1000);
+  ASSERT_EQ(diagnostics.all().size(), 101u);
+  EXPECT_EQ(to_text(diagnostics.all().back()), "error: more than 100 complaints, the rest are left out");
+}
+
+}  // namespace
+}  // namespace norrsken

@@ -1,0 +1,117 @@
+#include "scene/file_system.h"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "scene/memory_files.h"
+
+namespace norrsken {
+
+// This program's own built-in files, in place of those of scenes/.
+std::vector<std::pair<std::string_view, std::string_view>> builtin_files() {
+  return {{"room/room.xml", "<scene/>"}, {"room/parts/wall.obj", "v 0 0 0"}};
+}
+
+namespace {
+
+class FileSystemTest : public testing::Test {
+ protected:
+  FileSystemTest() {
+    std::string name = (std::filesystem::temp_directory_path() / "norrsken_XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~FileSystemTest() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& contents) {
+    std::ofstream(folder_ + "/" + name, std::ios::binary) << contents;
+    return folder_ + "/" + name;
+  }
+  std::string error_of(const std::string& path) {
+    std::string error;
+    EXPECT_FALSE(files_.read(path, error).has_value());
+    return error;
+  }
+
+  FileSystem files_;
+  std::string folder_;
+};
+
+TEST_F(FileSystemTest, ReadsWholeFiles) {
+  std::string contents(100000, 'x');
+  contents[5] = '\0';
+  std::string error;
+  EXPECT_EQ(files_.read(write("a.bin", contents), error), contents);
+  EXPECT_EQ(files_.read(write("empty", ""), error), "");
+  EXPECT_EQ(error, "");
+}
+
+TEST_F(FileSystemTest, ReadsFilesThatClaimToBeEmpty) {
+  std::string error;
+  const auto status = files_.read("/proc/self/status", error);
+  ASSERT_TRUE(status.has_value()) << error;
+  EXPECT_NE(status->find("Pid:"), std::string::npos);
+}
+
+TEST_F(FileSystemTest, RefusesWhatIsNotAFile) {
+  EXPECT_EQ(error_of(folder_ + "/missing"), "no such file");
+  EXPECT_EQ(error_of(write("file", "x") + "/below"), "Not a directory");
+  EXPECT_EQ(error_of(folder_), "is a folder");
+  EXPECT_EQ(error_of("/dev/zero"), "is not a regular file");
+  const std::string pipe = folder_ + "/pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(error_of(pipe), "is not a regular file");
+
+  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string name = folder_ + "/socket";
+  std::strncpy(address.sun_path, name.c_str(), sizeof(address.sun_path) - 1);
+  ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  EXPECT_EQ(error_of(name), "is not a regular file");
+  ::close(socket);
+}
+
+TEST_F(FileSystemTest, RefusesHugeFilesBeforeReadingThem) {
+  const std::string path = write("huge", "");
+  std::filesystem::resize_file(path, (std::uintmax_t{4} << 30) + 1);  // a hole: takes no room on the disk
+  EXPECT_EQ(error_of(path), "is larger than 4 GiB");
+}
+
+TEST_F(FileSystemTest, KnowsBuiltinFiles) {
+  std::string error;
+  EXPECT_EQ(files_.read("builtin:room/room.xml", error), "<scene/>");
+  EXPECT_EQ(files_.read("builtin:room/../room/./parts/wall.obj", error), "v 0 0 0");
+  EXPECT_EQ(error_of("builtin:room/other.xml"), "no such built-in file");
+  EXPECT_TRUE(files_.exists("builtin:room/room.xml"));
+  EXPECT_TRUE(files_.exists("builtin:room/parts"));
+  EXPECT_TRUE(files_.exists("builtin:room/parts/"));
+  EXPECT_FALSE(files_.exists("builtin:roo"));
+}
+
+TEST(ResolveFile, LooksBesideTheFileThenInTheSearchPaths) {
+  const MemoryFiles files(
+      {{"scenes/room.xml", ""}, {"scenes/a.obj", ""}, {"lib/a.obj", ""}, {"lib/b.obj", ""}, {"/abs/c.obj", ""}});
+  const std::vector<std::string> paths{"other", "lib"};
+  EXPECT_EQ(resolve_file(files, "a.obj", "scenes/room.xml", paths), "scenes/a.obj");
+  EXPECT_EQ(resolve_file(files, "b.obj", "scenes/room.xml", paths), "lib/b.obj");
+  EXPECT_EQ(resolve_file(files, "c.obj", "scenes/room.xml", paths), "");
+  EXPECT_EQ(resolve_file(files, "/abs/c.obj", "scenes/room.xml", paths), "/abs/c.obj");
+  EXPECT_EQ(resolve_file(files, "scenes/a.obj", "room.xml", {}), "scenes/a.obj");
+  EXPECT_EQ(resolve_file(files, "", "scenes/room.xml", paths), "");
+}
+
+TEST(ResolveFile, StaysWithinTheBuiltinScene) {
+  const FileSystem files;
+  EXPECT_EQ(resolve_file(files, "parts/wall.obj", "builtin:room/room.xml", {}), "builtin:room/parts/wall.obj");
+  EXPECT_EQ(resolve_file(files, "room/room.xml", "builtin:x.xml", {}), "builtin:room/room.xml");
+}
+
+}  // namespace
+}  // namespace norrsken

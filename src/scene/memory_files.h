@@ -1,0 +1,36 @@
+// Files that exist in memory only: for tests and fuzzers.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "scene/file_system.h"
+
+namespace norrsken {
+
+/// Path to contents. Knows no disk and no built-in files.
+class MemoryFiles : public FileSystem {
+ public:
+  explicit MemoryFiles(std::map<std::string, std::string> files = {}) : files_(std::move(files)) {}
+
+  void add(const std::string& path, std::string contents) { files_[path] = std::move(contents); }
+
+  std::optional<std::string> read(const std::string& path, std::string& error) const override {
+    if (const auto found = files_.find(path); found != files_.end()) return found->second;
+    error = exists(path) ? "is a folder" : "no such file";
+    return std::nullopt;
+  }
+
+  bool exists(const std::string& path) const override {
+    if (files_.contains(path)) return true;
+    const std::string folder = path.ends_with('/') ? path : path + "/";
+    const auto inside = files_.lower_bound(folder);
+    return inside != files_.end() && inside->first.starts_with(folder);
+  }
+
+ private:
+  std::map<std::string, std::string> files_;
+};
+
+}  // namespace norrsken

@@ -1,0 +1,275 @@
+#include "scene/parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <utility>
+
+#include "base/text.h"
+#include "color/spectrum.h"
+#include "scene/file_system.h"
+
+namespace norrsken {
+namespace {
+
+// What a float can hold with room for a few products. Wider bounds are narrowed to it and not mentioned.
+constexpr double kMaxNumber = 1e30;
+// |det| below this share of the product of the column lengths is singular but for rounding.
+constexpr double kSingular = 1e-12;
+
+std::string with_article(const std::string& type) {
+  const bool vowel = type == "rgb" || std::string_view("aeio").find(type.front()) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + type;
+}
+
+// "bsdf 'diffuse'"; the scene has no plugin.
+std::string name_of(const Node& node) {
+  return node.plugin.empty() ? node.kind : fmt::format("{} {}", node.kind, quoted(node.plugin));
+}
+
+template <typename Number>
+std::string range_text(std::string_view noun, Number min, Number max, bool has_min, bool has_max) {
+  if (has_min && has_max) return fmt::format("{} from {} to {}", noun, min, max);
+  if (has_min) return fmt::format("{} of at least {}", noun, min);
+  if (has_max) return fmt::format("{} of at most {}", noun, max);
+  return std::string(noun);
+}
+
+// Bounds that only say "what a float holds" are worth a mention only to someone who went beyond them.
+std::string number_range(std::string_view noun, double min, double max, double value) {
+  return range_text(noun, min, max, min > -kMaxNumber || value < -kMaxNumber, max < kMaxNumber || value > kMaxNumber);
+}
+
+std::vector<std::string> list(const std::set<std::string, std::less<>>& words) { return {words.begin(), words.end()}; }
+
+bool is_finite(const glm::dmat4& m) {
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      if (!(std::abs(m[column][row]) <= kMaxCoordinate)) return false;
+    }
+  }
+  return true;
+}
+
+// What is wrong with a placement, and what would be right; nothing if it is fine.
+std::pair<std::string_view, std::string> complaint_about(const glm::dmat4& m) {
+  if (!is_finite(m)) return {"has elements that are too large", fmt::format("elements up to {:g}", kMaxCoordinate)};
+  const bool affine = m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1;
+  if (!affine) return {"is not affine", "a matrix whose last row is 0 0 0 1"};
+  const glm::dmat3 linear(m);
+  const double volume = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+  if (!(std::abs(glm::determinant(linear)) > kSingular * volume))
+    return {"cannot be inverted", "scale factors other than 0"};
+  return {};
+}
+
+}  // namespace
+
+Parameters::Parameters(const Node& node, const Description& description, const FileSystem& files,
+                       Diagnostics& diagnostics)
+    : node_(node), description_(description), files_(files), diagnostics_(diagnostics) {}
+
+bool Parameters::has(std::string_view name) const {
+  const auto named = [name](const auto& item) { return item.name == name; };
+  return std::any_of(node_.properties.begin(), node_.properties.end(), named) ||
+         std::any_of(node_.children.begin(), node_.children.end(), named) ||
+         std::find(node_.unreadable.begin(), node_.unreadable.end(), name) != node_.unreadable.end();
+}
+
+const Property* Parameters::find(std::string_view name) {
+  asked_names_.emplace(name);
+  const auto named = [name](const Property& property) { return property.name == name; };
+  const auto found = std::find_if(node_.properties.begin(), node_.properties.end(), named);
+  return found == node_.properties.end() ? nullptr : &*found;
+}
+
+template <typename... Types>
+const Property* Parameters::find_as(std::string_view name, std::string_view accepted) {
+  const Property* property = find(name);
+  if (property && (std::holds_alternative<Types>(property->value) || ...)) return property;
+  if (property) {
+    error(name, fmt::format("'{}' is {}", name, with_article(property->type)), std::string(accepted));
+    return nullptr;
+  }
+  const auto named = [name](const Node::Child& child) { return child.name == name; };
+  const auto child = std::find_if(node_.children.begin(), node_.children.end(), named);
+  if (child != node_.children.end())
+    error(name, fmt::format("'{}' is {} here", name, with_article(child->node->kind)), std::string(accepted));
+  return nullptr;
+}
+
+bool Parameters::boolean(std::string_view name, bool fallback) {
+  const Property* property = find_as<bool>(name, "boolean");
+  return property ? std::get<bool>(property->value) : fallback;
+}
+
+std::int64_t Parameters::integer(std::string_view name, std::int64_t fallback, std::int64_t min, std::int64_t max) {
+  const Property* property = find_as<std::int64_t>(name, "integer");
+  if (!property) return fallback;
+  const std::int64_t value = std::get<std::int64_t>(property->value);
+  if (value >= min && value <= max) return value;
+  using Limits = std::numeric_limits<std::int64_t>;
+  error(name, fmt::format("'{}' is {}", name, value),
+        range_text("an integer", min, max, min != Limits::min(), max != Limits::max()));
+  return fallback;
+}
+
+double Parameters::number(std::string_view name, double fallback, double min, double max) {
+  const Property* property = find_as<double, std::int64_t>(name, "float");
+  if (!property) return fallback;
+  const double* real = std::get_if<double>(&property->value);
+  const double value = real ? *real : static_cast<double>(std::get<std::int64_t>(property->value));
+  min = std::max(min, -kMaxNumber);
+  max = std::min(max, kMaxNumber);
+  if (value >= min && value <= max) return value;
+  error(name, fmt::format("'{}' is {}", name, value), number_range("a number", min, max, value));
+  return fallback;
+}
+
+std::string Parameters::text(std::string_view name, std::string_view fallback) {
+  const Property* property = find_as<std::string>(name, "string");
+  return property ? std::get<std::string>(property->value) : std::string(fallback);
+}
+
+std::string Parameters::choice(std::string_view name, std::string_view fallback,
+                               std::initializer_list<std::string_view> words) {
+  const std::vector<std::string> choices(words.begin(), words.end());
+  const Property* property = find_as<std::string>(name, "string: " + join(choices));
+  if (!property) return std::string(fallback);
+  const std::string& value = std::get<std::string>(property->value);
+  if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
+  error(name, fmt::format("'{}' is {}{}", name, quoted(value), did_you_mean(value, choices)), join(choices));
+  return std::string(fallback);
+}
+
+glm::dvec3 Parameters::color(std::string_view name, glm::dvec3 fallback, double min, double max, bool emission) {
+  const Property* property =
+      find_as<Property::Rgb, Property::Spectrum, double, std::int64_t>(name, "rgb, spectrum, float");
+  if (!property) return fallback;
+  min = std::max(min, -kMaxNumber);
+  max = std::min(max, kMaxNumber);
+
+  if (const auto* spectrum = std::get_if<Property::Spectrum>(&property->value)) {
+    for (const auto& [wavelength, value] : spectrum->samples) {
+      if (value >= min && value <= max) continue;
+      error(name, fmt::format("'{}' has a value of {}", name, value),
+            number_range("a spectrum with values", min, max, value));
+      return fallback;
+    }
+    const ColorVector rgb = emission ? rgb_of_emission(spectrum->samples) : rgb_of_reflectance(spectrum->samples);
+    // Saturated spectra lie outside sRGB: not the user's fault, the nearest colour must do.
+    return glm::clamp(glm::dvec3(rgb[0], rgb[1], rgb[2]), min, max);
+  }
+
+  glm::dvec3 value;
+  if (const auto* rgb = std::get_if<Property::Rgb>(&property->value)) {
+    value = rgb->value;
+  } else if (const auto* real = std::get_if<double>(&property->value)) {
+    value = glm::dvec3(*real);
+  } else {
+    value = glm::dvec3(static_cast<double>(std::get<std::int64_t>(property->value)));
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (value[i] >= min && value[i] <= max) continue;
+    error(name, fmt::format("'{}' is ({}, {}, {})", name, value.x, value.y, value.z),
+          number_range("components", min, max, value[i]));
+    return fallback;
+  }
+  return value;
+}
+
+glm::dvec3 Parameters::point(std::string_view name, glm::dvec3 fallback) {
+  const Property* property = find_as<Property::Vector>(name, "point, vector");
+  if (!property) return fallback;
+  const glm::dvec3 value = std::get<Property::Vector>(property->value).value;
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(value[i]) <= kMaxCoordinate) continue;
+    error(name, fmt::format("'{}' is ({}, {}, {})", name, value.x, value.y, value.z),
+          fmt::format("coordinates from {:g} to {:g}", -kMaxCoordinate, kMaxCoordinate));
+    return fallback;
+  }
+  return value;
+}
+
+glm::dmat4 Parameters::transform(std::string_view name) {
+  const Property* property = find_as<Property::Transform>(name, "transform");
+  if (!property) return glm::dmat4(1);
+  const glm::dmat4& matrix = std::get<Property::Transform>(property->value);
+  const auto [complaint, accepted] = complaint_about(matrix);
+  if (complaint.empty()) return matrix;
+  error(name, fmt::format("'{}' {}", name, complaint), accepted);
+  return glm::dmat4(1);
+}
+
+std::string Parameters::file(std::string_view name) {
+  if (!has(name)) {
+    asked_names_.emplace(name);
+    error(name, fmt::format("{} needs a parameter '{}'", name_of(node_), name),
+          fmt::format("<string name=\"{}\" value=\"...\"/>", name));
+    return {};
+  }
+  const Property* property = find_as<std::string>(name, "string");
+  if (!property) return {};
+  const std::string& value = std::get<std::string>(property->value);
+  const std::string path = resolve_file(files_, value, property->location.file, description_.search_paths);
+  if (!path.empty()) return path;
+  const std::string folder = folder_of(property->location.file);
+  std::vector<std::string> folders{folder.empty() ? "the current folder" : folder};
+  folders.insert(folders.end(), description_.search_paths.begin(), description_.search_paths.end());
+  error(name, fmt::format("there is no file {}", quoted(value, 200)), "a file in " + join(folders));
+  return {};
+}
+
+std::vector<const Node::Child*> Parameters::children(std::string_view kind) {
+  asked_kinds_.emplace(kind);
+  std::vector<const Node::Child*> found;
+  for (const Node::Child& child : node_.children) {
+    if (child.node->kind == kind) found.push_back(&child);
+  }
+  return found;
+}
+
+const Node::Child* Parameters::child(std::string_view kind) {
+  const auto found = children(kind);
+  if (found.size() > 1)
+    diagnostics_.error(found[1]->location, fmt::format("{} has more than one {}", name_of(node_), kind),
+                       fmt::format("one {}", kind));
+  return found.empty() ? nullptr : found[0];
+}
+
+SourceLocation Parameters::where(std::string_view name) const {
+  for (const Property& property : node_.properties) {
+    if (property.name == name) return property.location;
+  }
+  for (const Node::Child& child : node_.children) {
+    if (child.name == name) return child.location;
+  }
+  return node_.location;
+}
+
+void Parameters::error(std::string_view name, std::string message, std::string accepted) {
+  diagnostics_.error(where(name), std::move(message), std::move(accepted));
+}
+
+void Parameters::finish() {
+  const std::vector<std::string> names = list(asked_names_), kinds = list(asked_kinds_);
+  const std::string none = "no parameters";
+  for (const Property& property : node_.properties) {
+    if (asked_names_.contains(property.name)) continue;
+    diagnostics_.error(property.name_location,
+                       fmt::format("unused parameter {} of {}{}", quoted(property.name), name_of(node_),
+                                   did_you_mean(property.name, names)),
+                       names.empty() ? none : join(names));
+  }
+  for (const Node::Child& child : node_.children) {
+    if (asked_kinds_.contains(child.node->kind) || (!child.name.empty() && asked_names_.contains(child.name))) continue;
+    diagnostics_.error(child.location, fmt::format("unused {} in {}", name_of(*child.node), name_of(node_)),
+                       kinds.empty() ? "no children" : join(kinds));
+  }
+}
+
+}  // namespace norrsken

@@ -1,0 +1,255 @@
+#include "scene/parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "scene/memory_files.h"
+
+namespace norrsken {
+
+std::vector<std::pair<std::string_view, std::string_view>> builtin_files() { return {}; }
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class ParametersTest : public testing::Test {
+ protected:
+  ParametersTest() {
+    node_.kind = "bsdf";
+    node_.plugin = "diffuse";
+    node_.location = {"room.xml", 1, 1, 5, "<bsdf ...>"};
+  }
+
+  template <typename Value>
+  void give(std::string name, std::string type, Value value) {
+    Property property;
+    property.location = {"dir/room.xml", 2, 3, 1, "  X"};
+    property.name_location = {"dir/room.xml", 3, 3, 1, "  N"};
+    property.name = std::move(name);
+    property.type = std::move(type);
+    property.value = std::move(value);
+    node_.properties.push_back(std::move(property));
+  }
+  void give_child(std::string kind, std::string plugin, std::string name = {}) {
+    auto child = std::make_shared<Node>();
+    child->kind = std::move(kind);
+    child->plugin = std::move(plugin);
+    node_.children.push_back({std::move(name), child, {"dir/room.xml", 4, 3, 1, "  C"}});
+  }
+  Parameters parameters() { return Parameters(node_, description_, files_, diagnostics_); }
+
+  // The message and what is accepted of the only complaint, or all of them.
+  std::string complaint() const {
+    std::string text;
+    for (const Diagnostic& d : diagnostics_.all()) {
+      text += (text.empty() ? "" : "; ") + std::to_string(d.location.line) + ": " + d.message;
+      if (!d.accepted.empty()) text += " (accepted: " + d.accepted + ")";
+    }
+    return text;
+  }
+
+  Node node_;
+  Description description_;
+  MemoryFiles files_;
+  Diagnostics diagnostics_;
+};
+
+TEST_F(ParametersTest, ReadsEveryType) {
+  give("b", "boolean", true);
+  give("i", "integer", std::int64_t{7});
+  give("f", "float", 2.5);
+  give("s", "string", std::string("word"));
+  give("c", "rgb", Property::Rgb{{0.1, 0.2, 0.3}});
+  give("p", "point", Property::Vector{{1, 2, 3}});
+  give("t", "transform", glm::translate(glm::dmat4(1), {1, 2, 3}));
+  Parameters p = parameters();
+  EXPECT_TRUE(p.boolean("b", false));
+  EXPECT_EQ(p.integer("i", 0, 0, 10), 7);
+  EXPECT_EQ(p.number("f", 0, 0, 10), 2.5);
+  EXPECT_EQ(p.number("i", 0, 0, 10), 7) << "an integer will do as a number";
+  EXPECT_EQ(p.text("s", ""), "word");
+  EXPECT_EQ(p.choice("s", "other", {"other", "word"}), "word");
+  EXPECT_EQ(p.color("c", {}, 0, 1), glm::dvec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(p.color("f", {}, 0, 5), glm::dvec3(2.5)) << "a float is grey";
+  EXPECT_EQ(p.point("p", {}), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(p.transform("t")[3], glm::dvec4(1, 2, 3, 1));
+  p.finish();
+  EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(ParametersTest, WhatIsNotGivenIsTheFallback) {
+  Parameters p = parameters();
+  EXPECT_TRUE(p.boolean("x", true));
+  EXPECT_EQ(p.integer("x", 5, 0, 10), 5);
+  EXPECT_EQ(p.number("x", 0.5, 0, 10), 0.5);
+  EXPECT_EQ(p.text("x", "t"), "t");
+  EXPECT_EQ(p.choice("x", "a", {"a", "b"}), "a");
+  EXPECT_EQ(p.color("x", {1, 2, 3}, 0, 1), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(p.point("x", {1, 2, 3}), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(p.transform("x"), glm::dmat4(1));
+  EXPECT_FALSE(p.has("x"));
+  p.finish();
+  EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(ParametersTest, WrongTypes) {
+  give("fov", "string", std::string("abc"));
+  give("spp", "float", 4.0);
+  give("on", "rgb", Property::Rgb{});
+  Parameters p = parameters();
+  EXPECT_EQ(p.number("fov", 45, 0, 180), 45);
+  EXPECT_EQ(p.integer("spp", 4, 1, 100), 4);
+  EXPECT_FALSE(p.boolean("on", false));
+  p.finish();
+  EXPECT_EQ(complaint(),
+            "2: 'fov' is a string (accepted: float); 2: 'spp' is a float (accepted: integer); "
+            "2: 'on' is an rgb (accepted: boolean)");
+}
+
+TEST_F(ParametersTest, RangesAreNamed) {
+  give("fov", "float", 270.0);
+  give("spp", "integer", std::int64_t{0});
+  give("radius", "float", -1.0);
+  give("huge", "float", 1e300);
+  Parameters p = parameters();
+  EXPECT_EQ(p.number("fov", 45, 0, 180), 45);
+  EXPECT_EQ(p.integer("spp", 4, 1, std::numeric_limits<std::int64_t>::max()), 4);
+  EXPECT_EQ(p.number("radius", 1, 0, kInfinity), 1);
+  EXPECT_EQ(p.number("huge", 1, -kInfinity, kInfinity), 1);
+  EXPECT_EQ(complaint(),
+            "2: 'fov' is 270 (accepted: a number from 0 to 180); 2: 'spp' is 0 (accepted: an integer of at least 1); "
+            "2: 'radius' is -1 (accepted: a number of at least 0); 2: 'huge' is 1e+300 (accepted: a number of at most "
+            "1e+30)");
+}
+
+TEST_F(ParametersTest, ChoicesAreListed) {
+  give("axis", "string", std::string("hieght"));
+  give("mode", "integer", std::int64_t{1});
+  Parameters p = parameters();
+  EXPECT_EQ(p.choice("axis", "width", {"width", "height"}), "width");
+  EXPECT_EQ(p.choice("mode", "a", {"a", "b"}), "a");
+  EXPECT_EQ(complaint(),
+            "2: 'axis' is 'hieght', did you mean 'height'? (accepted: width, height); "
+            "2: 'mode' is an integer (accepted: string: a, b)");
+}
+
+TEST_F(ParametersTest, Colors) {
+  give("bright", "rgb", Property::Rgb{{0.5, 1.5, 0.5}});
+  give("negative", "spectrum", Property::Spectrum{{{400, 0.5}, {500, -1}}});
+  give("grey", "spectrum", Property::Spectrum{{{0, 0.25}}});
+  give("saturated", "spectrum", Property::Spectrum{{{500, 1}, {520, 1}}});
+  give("flat", "spectrum", Property::Spectrum{{{300, 1}, {900, 1}}});
+  Parameters p = parameters();
+  EXPECT_EQ(p.color("bright", glm::dvec3(0.1), 0, 1), glm::dvec3(0.1));
+  EXPECT_EQ(p.color("negative", glm::dvec3(0.1), 0, 1), glm::dvec3(0.1));
+  EXPECT_EQ(p.color("grey", {}, 0, 1), glm::dvec3(0.25));
+  EXPECT_EQ(p.color("saturated", glm::dvec3(1), 0, 1).x, 0) << "out of gamut: clamped, no complaint";
+  EXPECT_NEAR(p.color("flat", {}, 0, 2).x, 1, 1e-9);
+  EXPECT_GT(p.color("flat", {}, 0, 2, true).x, 1.1) << "equal energy is reddish as a light";
+  EXPECT_EQ(complaint(),
+            "2: 'bright' is (0.5, 1.5, 0.5) (accepted: components from 0 to 1); "
+            "2: 'negative' has a value of -1 (accepted: a spectrum with values from 0 to 1)");
+}
+
+TEST_F(ParametersTest, PlacementsMustBeUsable) {
+  give("flat", "transform", glm::scale(glm::dmat4(1), {1, 0, 1}));
+  give("tiny", "transform", glm::scale(glm::dmat4(1), glm::dvec3(1e-9)));
+  glm::dmat4 projective(1);
+  projective[0][3] = 1;
+  give("projective", "transform", projective);
+  give("far", "transform", glm::translate(glm::dmat4(1), {1e20, 0, 0}));
+  give("origin", "point", Property::Vector{{1e20, 0, 0}});
+  Parameters p = parameters();
+  EXPECT_EQ(p.transform("flat"), glm::dmat4(1));
+  EXPECT_EQ(p.transform("tiny")[0][0], 1e-9) << "small is not singular";
+  EXPECT_EQ(p.transform("projective"), glm::dmat4(1));
+  EXPECT_EQ(p.transform("far"), glm::dmat4(1));
+  EXPECT_EQ(p.point("origin", {1, 1, 1}), glm::dvec3(1));
+  EXPECT_EQ(complaint(),
+            "2: 'flat' cannot be inverted (accepted: scale factors other than 0); "
+            "2: 'projective' is not affine (accepted: a matrix whose last row is 0 0 0 1); "
+            "2: 'far' has elements that are too large (accepted: elements up to 1e+15); "
+            "2: 'origin' is (1e+20, 0, 0) (accepted: coordinates from -1e+15 to 1e+15)");
+}
+
+TEST_F(ParametersTest, FilesAreLookedUp) {
+  files_.add("dir/a.obj", "");
+  files_.add("lib/b.obj", "");
+  description_.search_paths = {"lib"};
+  give("a", "string", std::string("a.obj"));
+  give("b", "string", std::string("b.obj"));
+  give("c", "string", std::string("c.obj"));
+  Parameters p = parameters();
+  EXPECT_EQ(p.file("a"), "dir/a.obj");
+  EXPECT_EQ(p.file("b"), "lib/b.obj");
+  EXPECT_EQ(p.file("c"), "");
+  EXPECT_EQ(p.file("filename"), "");
+  EXPECT_EQ(complaint(),
+            "2: there is no file 'c.obj' (accepted: a file in dir/, lib); "
+            "1: bsdf 'diffuse' needs a parameter 'filename' (accepted: <string name=\"filename\" value=\"...\"/>)");
+}
+
+TEST_F(ParametersTest, UnusedParametersAreErrors) {
+  give("reflectanse", "rgb", Property::Rgb{});
+  give("zzz", "float", 1.0);
+  Parameters p = parameters();
+  p.color("reflectance", {}, 0, 1);
+  p.number("alpha", 0, 0, 1);
+  p.finish();
+  EXPECT_EQ(complaint(),
+            "3: unused parameter 'reflectanse' of bsdf 'diffuse', did you mean 'reflectance'? "
+            "(accepted: alpha, reflectance); "
+            "3: unused parameter 'zzz' of bsdf 'diffuse' (accepted: alpha, reflectance)");
+}
+
+TEST_F(ParametersTest, UnusedChildrenAreErrors) {
+  give_child("texture", "bitmap", "reflectance");
+  give_child("bsdf", "diffuse");
+  give_child("emitter", "area");
+  Parameters p = parameters();
+  EXPECT_EQ(p.children("bsdf").size(), 1u);
+  p.finish();
+  EXPECT_EQ(complaint(),
+            "4: unused texture 'bitmap' in bsdf 'diffuse' (accepted: bsdf); "
+            "4: unused emitter 'area' in bsdf 'diffuse' (accepted: bsdf)");
+}
+
+TEST_F(ParametersTest, AChildInPlaceOfAValueIsNamedOnce) {
+  give_child("texture", "bitmap", "reflectance");
+  Parameters p = parameters();
+  p.color("reflectance", {}, 0, 1);
+  p.finish();
+  EXPECT_EQ(complaint(), "4: 'reflectance' is a texture here (accepted: rgb, spectrum, float)");
+}
+
+TEST_F(ParametersTest, AtMostOneChild) {
+  give_child("bsdf", "diffuse");
+  give_child("bsdf", "conductor");
+  Parameters p = parameters();
+  ASSERT_NE(p.child("bsdf"), nullptr);
+  EXPECT_EQ(p.child("emitter"), nullptr);
+  EXPECT_EQ(complaint(), "4: bsdf 'diffuse' has more than one bsdf (accepted: one bsdf)");
+}
+
+TEST_F(ParametersTest, WhatTheReaderComplainedAboutIsNotComplainedAboutAgain) {
+  node_.unreadable = {"filename", "fov"};
+  Parameters p = parameters();
+  EXPECT_EQ(p.file("filename"), "");
+  EXPECT_EQ(p.number("fov", 45, 0, 180), 45);
+  EXPECT_TRUE(p.has("fov"));
+  p.finish();
+  EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(ParametersTest, PluginsWithoutParametersSaySo) {
+  give("x", "float", 1.0);
+  Parameters p = parameters();
+  p.finish();
+  EXPECT_EQ(complaint(), "3: unused parameter 'x' of bsdf 'diffuse' (accepted: no parameters)");
+}
+
+}  // namespace
+}  // namespace norrsken
