@@ -25,7 +25,7 @@ render: build  ## build Norrsken and render the hexagon room (SCENE=..., IMAGE=.
 build:  ## install what is missing and build build/release/norrsken
 	@scripts/install_dependencies.sh build
 	cmake --preset release
-	cmake --build $(RELEASE) --target norrsken_cli -j $(JOBS)
+	cmake --build $(RELEASE) --target norrsken_program -j $(JOBS)
 
 .PHONY: test
 test: release-all  ## everything: warnings as errors, render, all tests, style, sanitizers

@@ -1,10 +1,9 @@
-# Installs the command, the library, its headers, and the CMake package that finds them again as norrsken::norrsken.
+# Installs the library, its headers, and the CMake package that finds them again as norrsken::norrsken.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/norrsken)
 install(TARGETS norrsken EXPORT norrsken ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS norrsken_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/norrsken DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT norrsken NAMESPACE norrsken:: FILE norrskenTargets.cmake DESTINATION ${package_dir})
 
