@@ -1,0 +1,322 @@
+#include "compile/builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/text.h"
+#include "compile/plugins.h"
+#include "light/light_choice.h"
+
+namespace norrsken {
+namespace {
+
+/// Adapters within adapters: far more than any scene needs, far fewer than the stack holds.
+constexpr int kMaxBsdfDepth = 64;
+/// Three times an index must fit the 32-bit lanes that gather.
+constexpr std::size_t kMaxElements = std::size_t{1} << 29;
+
+template <class Container>
+std::uint64_t bytes_of(const Container& container) {
+  return container.size() * sizeof(container[0]);
+}
+
+}  // namespace
+
+void Builder::refuse_kinds_to_come(Parameters& parameters) {
+  for (const char* kind : {"medium", "texture", "volume"}) {
+    for (const Node::Child* child : parameters.children(kind)) complain_about_plugin(*child->node, {}, diagnostics_);
+  }
+}
+
+void Builder::describe(const Node& node, std::string detail) {
+  scene_.info.items.push_back({node.kind, node.plugin, node.id, std::move(detail)});
+}
+
+Material Builder::bsdf(const Node& node) {
+  if (const auto known = materials_.find(&node); known != materials_.end()) return known->second;
+  Material material;
+  if (bsdf_depth_ == kMaxBsdfDepth) {
+    diagnostics_.error(node.location, fmt::format("bsdfs are nested more than {} deep", kMaxBsdfDepth));
+  } else if (const auto* plugin = find_plugin(bsdf_plugins(), node, diagnostics_)) {
+    ++bsdf_depth_;
+    Parameters p = parameters(node);
+    material = plugin->compile(p, *this);
+    p.finish();
+    --bsdf_depth_;
+  }
+  materials_.emplace(&node, material);
+  return material;
+}
+
+MaterialWord Builder::add_material(BsdfKind kind, std::initializer_list<double> parameters) {
+  auto& stored = tables().bsdf_parameters;
+  const auto offset = static_cast<std::uint32_t>(stored.size());
+  for (const double value : parameters) stored.push_back(static_cast<float>(value));
+  if (stored.size() > kMaterialOffsetMask) {
+    diagnostics_.error({}, "the scene has too many bsdfs", fmt::format("{} parameters in all", kMaterialOffsetMask));
+    return make_material(BsdfKind::absorb, 0);
+  }
+  return make_material(kind, offset);
+}
+
+std::uint32_t Builder::add_light(const LightRecord& light) {
+  tables().lights.push_back(light);
+  return static_cast<std::uint32_t>(tables().lights.size() - 1);
+}
+
+std::span<SurfaceRecord> Builder::surfaces_of(std::uint32_t shape) {
+  const ShapeRecord& record = tables().shapes[shape];
+  auto& surfaces = is_sphere(shape) ? spheres_ : tables().surfaces;
+  return std::span(surfaces).subspan(record.first_primitive, record.primitive_count);
+}
+
+FilterKind Builder::rfilter(Parameters& film) {
+  const Node::Child* child = film.child("rfilter");
+  if (!child) {
+    diagnostics_.warning(film.node().location,
+                         "no rfilter given: 'box' is used, because Mitsuba's default, 'gaussian', is not supported yet",
+                         "<rfilter type=\"box\"/>");
+    return FilterKind::box;
+  }
+  FilterKind filter = FilterKind::box;
+  if (const auto* plugin = find_plugin(rfilter_plugins(), *child->node, diagnostics_)) {
+    Parameters p = parameters(*child->node);
+    filter = plugin->compile(p);
+    p.finish();
+    describe(*child->node, {});
+  }
+  return filter;
+}
+
+/// Compiles `child`, or the plugin `fallback` if there is none. A `replacement` from the command line takes the node's
+/// parameters, except for those it does not know.
+template <class Function>
+auto Builder::compile_chosen(const Node::Child* child, const char* kind, const char* fallback,
+                             const std::optional<std::string>& replacement,
+                             std::span<const Plugin<Function>> table, std::string& plugin_name) {
+  Node node;
+  if (child) {
+    node = *child->node;
+  } else {
+    node.kind = kind;
+    node.plugin = fallback;
+  }
+  const bool replaced = replacement && *replacement != node.plugin;
+  if (replaced) {
+    node.plugin = *replacement;
+    node.plugin_location = {};
+  }
+  decltype(table[0].compile(std::declval<Parameters&>())) settings;
+  plugin_name = node.plugin;
+  if (const auto* plugin = find_plugin(table, node, diagnostics_)) {
+    Parameters p = parameters(node);
+    settings = plugin->compile(p);
+    if (!replaced) p.finish();
+    describe(node, {});
+  }
+  return settings;
+}
+
+FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options) {
+  FilmSettings settings;
+  Node default_film;
+  default_film.kind = "film";
+  default_film.plugin = "hdrfilm";
+  default_film.location = sensor.node().location;
+  const Node::Child* child = sensor.child("film");
+  const Node& node = child ? *child->node : default_film;
+  const auto* plugin = find_plugin(film_plugins(), node, diagnostics_);
+  if (!plugin) return settings;
+  Parameters p = parameters(node);
+  settings = plugin->compile(p, *this);
+  p.finish();
+
+  const auto override_side = [&](const char* name, const std::optional<int>& value, int& side) {
+    if (!value) return;
+    side = std::clamp(*value, 1, kMaxFilmSide);
+    if (side != *value) {
+      diagnostics_.error({}, fmt::format("{} {} is out of range", name, *value), fmt::format("1 to {}", kMaxFilmSide));
+    }
+  };
+  override_side("width", options.width, settings.width);
+  override_side("height", options.height, settings.height);
+  const std::int64_t pixels = std::int64_t{settings.width} * settings.height;
+  if (pixels > kMaxFilmPixels) {
+    const bool overridden = options.width || options.height;
+    diagnostics_.error(overridden ? SourceLocation{} : node.location,
+                       fmt::format("a film of {} x {} has {} pixels", settings.width, settings.height, pixels),
+                       fmt::format("up to {} pixels", kMaxFilmPixels));
+  }
+  describe(node, fmt::format("{} x {}", settings.width, settings.height));
+  return settings;
+}
+
+void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
+  const auto sensors = scene.children("sensor");
+  if (sensors.empty()) {
+    diagnostics_.error(scene.node().location, "the scene has no sensor", "<sensor type=\"perspective\">");
+    return;
+  }
+  for (std::size_t i = 1; i < sensors.size(); ++i) {
+    diagnostics_.warning(sensors[i]->location, "only the scene's first sensor is used, this one is left aside");
+  }
+  const Node& node = *sensors[0]->node;
+  const auto* plugin = find_plugin(sensor_plugins(), node, diagnostics_);
+  if (!plugin) return;
+  Parameters p = parameters(node);
+  tables().film = film(p, options);
+  tables().sampler = compile_chosen(p.child("sampler"), "sampler", "sobol", options.sampler, sampler_plugins(),
+                                    scene_.info.sampler);
+  tables().camera = plugin->compile(p, *this, tables().film);
+  p.finish();
+}
+
+void Builder::compile_emitter(const Node& node, std::uint32_t shape) {
+  const auto* plugin = find_plugin(emitter_plugins(), node, diagnostics_);
+  if (!plugin) return;
+  Parameters p = parameters(node);
+  plugin->compile(p, *this, shape);
+  p.finish();
+}
+
+void Builder::compile_shape(const Node& node) {
+  const auto* plugin = find_plugin(shape_plugins(), node, diagnostics_);
+  if (!plugin) return;
+  Parameters p = parameters(node);
+  const Node::Child* bsdf_child = p.child("bsdf");
+  const Node::Child* emitter_child = p.child("emitter");
+  Material material;
+  if (bsdf_child) {
+    material = bsdf(*bsdf_child->node);
+  } else {
+    // Mitsuba's material for shapes that name none.
+    if (!default_material_) default_material_ = Material{.front = add_material(BsdfKind::diffuse, {0.5, 0.5, 0.5})};
+    material = *default_material_;
+  }
+  const std::optional<ShapeGeometry> geometry = plugin->compile(p, *this);
+  // An empty shape stands in for a broken one, so that its emitter's complaints are heard too.
+  const std::uint32_t shape = add_shape(geometry.value_or(ShapeGeometry{}), material);
+  if (emitter_child) compile_emitter(*emitter_child->node, shape);
+  refuse_kinds_to_come(p);
+  p.finish();
+}
+
+std::uint32_t Builder::add_shape(const ShapeGeometry& geometry, Material material) {
+  const auto shape = static_cast<std::uint32_t>(tables().shapes.size());
+  const bool sphere = !geometry.spheres.empty();
+  auto& surfaces = sphere ? spheres_ : tables().surfaces;
+  is_sphere_.push_back(sphere);
+  ShapeRecord record;
+  record.first_primitive = static_cast<std::uint32_t>(surfaces.size());
+  for (const auto& [center, radius, flip_normals] : geometry.spheres) {
+    surfaces.push_back({{static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z),
+                         static_cast<float>(radius)},
+                        material.front, material.back, kNone, shape});
+    record.flip_normals = flip_normals;
+  }
+  if (!sphere) add_triangles(geometry.mesh, material, shape);
+  record.primitive_count = static_cast<std::uint32_t>(surfaces.size()) - record.first_primitive;
+  record.smooth = !geometry.mesh.normals.empty();
+  tables().shapes.push_back(record);
+  return shape;
+}
+
+void Builder::add_triangles(const MeshData& mesh, Material material, std::uint32_t shape) {
+  SceneTables& t = tables();
+  const std::size_t base = t.positions.size() / 3;
+  if (base + mesh.positions.size() > kMaxElements || t.surfaces.size() + mesh.triangles.size() > kMaxElements) {
+    diagnostics_.error({}, "the scene has too many triangles", fmt::format("{} vertices and triangles", kMaxElements));
+    return;
+  }
+  for (const auto& position : mesh.positions) t.positions.insert(t.positions.end(), position.begin(), position.end());
+  // Per-vertex arrays exist for all vertices as soon as one shape needs them.
+  if (!t.normals.empty() || !mesh.normals.empty()) {
+    t.normals.resize(3 * base);
+    for (const auto& normal : mesh.normals) t.normals.insert(t.normals.end(), normal.begin(), normal.end());
+    t.normals.resize(t.positions.size());
+  }
+  if (!t.texcoords.empty() || !mesh.texcoords.empty()) {
+    t.texcoords.resize(2 * base);
+    for (const auto& texcoord : mesh.texcoords) t.texcoords.insert(t.texcoords.end(), texcoord.begin(), texcoord.end());
+    t.texcoords.resize(t.positions.size() / 3 * 2);
+  }
+  const auto corner = [&](std::uint32_t vertex) {
+    const auto& p = mesh.positions[vertex];
+    return glm::dvec3(p[0], p[1], p[2]);
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const std::uint32_t vertex : {a, b, c}) {
+      t.triangle_vertices.push_back(static_cast<std::uint32_t>(base + vertex));
+    }
+    const glm::dvec3 n = glm::normalize(glm::cross(corner(b) - corner(a), corner(c) - corner(a)));
+    t.surfaces.push_back({{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z),
+                           static_cast<float>(glm::dot(n, corner(a)))},
+                          material.front, material.back, kNone, shape});
+  }
+}
+
+void Builder::append_spheres() {
+  SceneTables& t = tables();
+  for (std::uint32_t shape = 0; shape < t.shapes.size(); ++shape) {
+    if (is_sphere(shape)) t.shapes[shape].first_primitive += t.triangle_count();
+  }
+  t.surfaces.insert(t.surfaces.end(), spheres_.begin(), spheres_.end());
+}
+
+void Builder::summarise() {
+  const SceneTables& t = tables();
+  SceneInfo& info = scene_.info;
+  info.parameters = description_.parameters;
+  info.triangles = t.triangle_count();
+  info.spheres = t.sphere_count();
+  info.lights = t.lights.size();
+  if (!t.surfaces.empty()) {
+    std::fill_n(info.bounds_min, 3, std::numeric_limits<double>::infinity());
+    std::fill_n(info.bounds_max, 3, -std::numeric_limits<double>::infinity());
+  }
+  const auto extend = [&](const float* point, float radius) {
+    for (int axis = 0; axis < 3; ++axis) {
+      info.bounds_min[axis] = std::min(info.bounds_min[axis], double{point[axis]} - double{radius});
+      info.bounds_max[axis] = std::max(info.bounds_max[axis], double{point[axis]} + double{radius});
+    }
+  };
+  for (const std::uint32_t vertex : t.triangle_vertices) extend(&t.positions[3 * vertex], 0);
+  for (const SurfaceRecord& sphere : spheres_) extend(sphere.geometry, sphere.geometry[3]);
+  info.width = t.film.width;
+  info.height = t.film.height;
+  info.samples_per_pixel = static_cast<int>(t.sampler.samples_per_pixel);
+  info.max_depth = t.integrator.max_depth;
+  info.rr_depth = t.integrator.rr_depth;
+  info.emitter_samples = t.integrator.emitter_samples;
+  info.integrator = t.integrator.name;
+  info.table_bytes = bytes_of(t.positions) + bytes_of(t.normals) + bytes_of(t.texcoords) +
+                     bytes_of(t.triangle_vertices) + bytes_of(t.surfaces) + bytes_of(t.shapes) +
+                     bytes_of(t.bsdf_parameters) + bytes_of(t.lights);
+}
+
+LoadedScene Builder::build(const LoadOptions& options) {
+  const Node& root = *description_.scene;
+  Parameters p = parameters(root);
+  tables().integrator = compile_chosen(p.child("integrator"), "integrator", "path", options.integrator,
+                                       integrator_plugins(), tables().integrator.name);
+  compile_sensor(p, options);
+  for (const Node::Child* child : p.children("bsdf")) bsdf(*child->node);
+  const auto shapes = p.children("shape");
+  if (shapes.empty()) diagnostics_.error(root.location, "the scene has no shape", "<shape type=\"...\">");
+  for (const Node::Child* child : shapes) compile_shape(*child->node);
+  for (const Node::Child* child : p.children("emitter")) compile_emitter(*child->node, kNone);
+  refuse_kinds_to_come(p);
+  p.finish();
+  if (tables().lights.empty() && !diagnostics_.has_errors()) {
+    diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
+  }
+  append_spheres();
+  choose_lights_by_power(tables().lights);
+  summarise();
+  return std::move(scene_);
+}
+
+}  // namespace norrsken

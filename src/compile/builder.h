@@ -1,0 +1,98 @@
+// What plugins fill the scene's tables through: services that they share, and the common part of each kind.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compile/compile.h"
+#include "formats/mesh_data.h"
+#include "compile/plugin_table.h"
+#include "scene/parameters.h"
+
+namespace norrsken {
+
+/// Bounds on what a scene may ask for.
+inline constexpr int kMaxFilmSide = 65536;
+inline constexpr std::int64_t kMaxFilmPixels = std::int64_t{1} << 28;
+inline constexpr double kMaxEmission = 1e15;  ///< of radiance and intensity; its square must fit a float
+
+/// The two sides of a surface; `front` is the one that the normal points to.
+struct Material {
+  MaterialWord front = make_material(BsdfKind::absorb, 0);
+  MaterialWord back = make_material(BsdfKind::absorb, 0);
+};
+
+/// A shape in world space. With `normals` the mesh is smooth, without it is flat.
+struct ShapeGeometry {
+  struct Sphere {
+    glm::dvec3 center;
+    double radius;
+    bool flip_normals;
+  };
+  MeshData mesh;
+  std::vector<Sphere> spheres;
+};
+
+class Builder {
+ public:
+  Builder(const Description& description, const FileSystem& files, Diagnostics& diagnostics)
+      : description_(description), files_(files), diagnostics_(diagnostics) {}
+
+  /// Compiles the whole scene; look at the diagnostics before using what comes out.
+  LoadedScene build(const LoadOptions& options);
+
+  // --- for plugins -------------------------------------------------------------------------------------------------
+  const FileSystem& files() const { return files_; }
+  Diagnostics& diagnostics() const { return diagnostics_; }
+  /// Triangles come first in `surfaces`; spheres are added behind them when all shapes are known.
+  SceneTables& tables() { return scene_.tables; }
+
+  /// The material of a `bsdf` node; a node that several shapes refer to is compiled once.
+  Material bsdf(const Node& node);
+  /// Stores a model's parameters and returns the word that leads to them.
+  MaterialWord add_material(BsdfKind kind, std::initializer_list<double> parameters);
+  /// `light.prob` and the alias fields are filled in later. Returns the record's index.
+  std::uint32_t add_light(const LightRecord& light);
+  /// The records of a shape's primitives, until the next shape is added.
+  std::span<SurfaceRecord> surfaces_of(std::uint32_t shape);
+  bool is_sphere(std::uint32_t shape) const { return is_sphere_[shape]; }
+  /// The filter of a film node, with a warning if it names none.
+  FilterKind rfilter(Parameters& film);
+  /// A line for `norrsken info`.
+  void describe(const Node& node, std::string detail);
+
+ private:
+  Parameters parameters(const Node& node) { return {node, description_, files_, diagnostics_}; }
+  /// Complains about media, textures and volumes by name; for nodes whose children's names mean nothing yet.
+  void refuse_kinds_to_come(Parameters& parameters);
+  void compile_sensor(Parameters& scene, const LoadOptions& options);
+  FilmSettings film(Parameters& sensor, const LoadOptions& options);
+  void compile_shape(const Node& node);
+  void compile_emitter(const Node& node, std::uint32_t shape);
+  std::uint32_t add_shape(const ShapeGeometry& geometry, Material material);
+  void add_triangles(const MeshData& mesh, Material material, std::uint32_t shape);
+  void append_spheres();
+  void summarise();
+
+  template <class Function>
+  auto compile_chosen(const Node::Child* child, const char* kind, const char* fallback,
+                      const std::optional<std::string>& replacement, std::span<const Plugin<Function>> table,
+                      std::string& plugin_name);
+
+  const Description& description_;
+  const FileSystem& files_;
+  Diagnostics& diagnostics_;
+  LoadedScene scene_;
+  std::map<const Node*, Material> materials_;
+  std::optional<Material> default_material_;
+  int bsdf_depth_ = 0;
+  std::vector<bool> is_sphere_;              ///< by shape
+  std::vector<SurfaceRecord> spheres_;       ///< waiting to be put behind the triangles
+};
+
+}  // namespace norrsken

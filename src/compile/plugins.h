@@ -1,0 +1,63 @@
+// The host function of every plugin, declared from its family's list: what a family's NAME.cpp defines. Each reads the
+// plugin's parameters; whoever calls it has looked the name up and complains about parameters nobody asked for.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "compile/builder.h"
+#include "compile/plugin_table.h"
+#include "scene/parameters.h"
+#include "tables/scene_tables.h"
+
+namespace norrsken {
+
+using CompileBsdf = Material(Parameters&, Builder&);
+/// World-space geometry; empty after a complaint.
+using CompileShape = std::optional<ShapeGeometry>(Parameters&, Builder&);
+/// Adds lights. `shape` is the index of the shape that the emitter stands in, or kNone.
+using CompileEmitter = void(Parameters&, Builder&, std::uint32_t shape);
+using CompileSensor = CameraRecord(Parameters&, Builder&, const FilmSettings&);
+using CompileFilm = FilmSettings(Parameters&, Builder&);
+using CompileSampler = SamplerSettings(Parameters&);
+using CompileRfilter = FilterKind(Parameters&);
+using CompileIntegrator = IntegratorSettings(Parameters&);
+
+#define NORRSKEN_BSDF(kind, Model) CompileBsdf compile_bsdf_##kind;
+#include "bsdf/list.def"
+#undef NORRSKEN_BSDF
+#define NORRSKEN_BSDF_ADAPTER(name) CompileBsdf compile_bsdf_##name;
+#include "bsdf/adapters.def"
+#undef NORRSKEN_BSDF_ADAPTER
+#define NORRSKEN_SHAPE(name) CompileShape compile_shape_##name;
+#include "shape/plugins.def"
+#undef NORRSKEN_SHAPE
+#define NORRSKEN_EMITTER(name) CompileEmitter compile_emitter_##name;
+#include "light/plugins.def"
+#undef NORRSKEN_EMITTER
+#define NORRSKEN_SENSOR(name) CompileSensor compile_sensor_##name;
+#include "camera/plugins.def"
+#undef NORRSKEN_SENSOR
+#define NORRSKEN_FILM(name) CompileFilm compile_film_##name;
+#include "film/plugins.def"
+#undef NORRSKEN_FILM
+#define NORRSKEN_SAMPLER(name) CompileSampler compile_sampler_##name;
+#include "sampler/plugins.def"
+#undef NORRSKEN_SAMPLER
+#define NORRSKEN_RFILTER(name) CompileRfilter compile_rfilter_##name;
+#include "rfilter/plugins.def"
+#undef NORRSKEN_RFILTER
+#define NORRSKEN_INTEGRATOR(name) CompileIntegrator compile_integrator_##name;
+#include "integrator/plugins.def"
+#undef NORRSKEN_INTEGRATOR
+
+std::span<const Plugin<CompileBsdf>> bsdf_plugins();
+std::span<const Plugin<CompileShape>> shape_plugins();
+std::span<const Plugin<CompileEmitter>> emitter_plugins();
+std::span<const Plugin<CompileSensor>> sensor_plugins();
+std::span<const Plugin<CompileFilm>> film_plugins();
+std::span<const Plugin<CompileSampler>> sampler_plugins();
+std::span<const Plugin<CompileRfilter>> rfilter_plugins();
+std::span<const Plugin<CompileIntegrator>> integrator_plugins();
+
+}  // namespace norrsken

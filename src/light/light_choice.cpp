@@ -1,0 +1,45 @@
+#include "light/light_choice.h"
+
+#include <numbers>
+#include <vector>
+
+#include "color/srgb.h"
+
+namespace norrsken {
+
+double light_power(const LightRecord& light) {
+  const double size = light.kind == LightKind::point ? 4 * std::numbers::pi : std::numbers::pi * double{light.area};
+  return size * luminance(double{light.emission[0]}, double{light.emission[1]}, double{light.emission[2]});
+}
+
+void choose_lights_by_power(std::span<LightRecord> lights) {
+  double total = 0;
+  for (const LightRecord& light : lights) total += light_power(light);
+  const auto count = static_cast<double>(lights.size());
+
+  // Each light's probability in units of a column of the table, sorted into columns with room and columns too full.
+  std::vector<double> level(lights.size());
+  std::vector<std::uint32_t> small, large;
+  for (std::uint32_t i = 0; i < lights.size(); ++i) {
+    level[i] = total > 0 ? light_power(lights[i]) / total * count : 1;
+    lights[i].prob = static_cast<float>(level[i] / count);
+    lights[i].alias_prob = 1;
+    lights[i].alias = i;
+    (level[i] < 1 ? small : large).push_back(i);
+  }
+  while (!small.empty() && !large.empty()) {
+    const std::uint32_t receiver = small.back(), donor = large.back();
+    small.pop_back();
+    lights[receiver].alias_prob = static_cast<float>(level[receiver]);
+    lights[receiver].alias = donor;
+    level[donor] -= 1 - level[receiver];
+    if (level[donor] < 1) {
+      large.pop_back();
+      small.push_back(donor);
+    }
+  }
+  // What is left over differs from 1 by rounding alone and keeps its column. A light that must never be chosen cannot
+  // be among it: its level is exactly 0, and the others' sum then leaves a donor until it is served.
+}
+
+}  // namespace norrsken

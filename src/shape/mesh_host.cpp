@@ -1,0 +1,164 @@
+#include "shape/mesh_host.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "base/text.h"
+
+namespace norrsken {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+glm::dvec3 to_dvec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
+std::array<float, 3> to_float(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// Normal of a triangle, as long as twice its area.
+glm::dvec3 area_normal(const MeshData& mesh, const Triangle& t) {
+  const glm::dvec3 a = to_dvec(mesh.positions[t[0]]);
+  return glm::cross(to_dvec(mesh.positions[t[1]]) - a, to_dvec(mesh.positions[t[2]]) - a);
+}
+
+glm::dvec3 normalized_or_zero(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  return length > 0 && std::isfinite(length) ? v / length : glm::dvec3(0);
+}
+
+/// Vertices whose normal came out as zero (none in the file, or faces that cancel each other) take that of a face.
+void fill_missing_normals(MeshData& mesh) {
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t vertex : t) {
+      if (to_dvec(mesh.normals[vertex]) == glm::dvec3(0)) {
+        mesh.normals[vertex] = to_float(glm::normalize(area_normal(mesh, t)));
+      }
+    }
+  }
+}
+
+void wind_as_normals_say(MeshData& mesh) {
+  for (Triangle& t : mesh.triangles) {
+    const glm::dvec3 sum = to_dvec(mesh.normals[t[0]]) + to_dvec(mesh.normals[t[1]]) + to_dvec(mesh.normals[t[2]]);
+    if (glm::dot(sum, area_normal(mesh, t)) < 0) std::swap(t[1], t[2]);
+  }
+}
+
+bool move_to_world(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
+  for (auto& position : mesh.positions) {
+    const glm::dvec3 moved = to_world * glm::dvec4(to_dvec(position), 1);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(moved[axis]) <= kMaxCoordinate) continue;
+      p.error("to_world", fmt::format("a vertex is at ({:.6g}, {:.6g}, {:.6g})", moved.x, moved.y, moved.z),
+              fmt::format("coordinates from {} to {}", -kMaxCoordinate, kMaxCoordinate));
+      return false;
+    }
+    position = to_float(moved);
+  }
+  const glm::dmat3 normal_to_world = glm::transpose(glm::inverse(glm::dmat3(to_world)));
+  for (auto& normal : mesh.normals) normal = to_float(normalized_or_zero(normal_to_world * to_dvec(normal)));
+  return true;
+}
+
+bool drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
+  const std::size_t before = mesh.triangles.size();
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    return !std::isnormal(static_cast<float>(glm::length(area_normal(mesh, t)) / 2));
+  });
+  const std::size_t dropped = before - mesh.triangles.size();
+  if (mesh.triangles.empty()) {
+    p.error(p.has("filename") ? "filename" : "to_world",
+            before == 0 ? "the mesh has no triangles"
+                        : fmt::format("none of the shape's {} triangles has an area", before));
+    return false;
+  }
+  if (dropped != 0) {
+    p.diagnostics().warning(p.where("filename"),
+                            fmt::format("{} of {} triangles {} no area and {} left out", dropped, before,
+                                        dropped == 1 ? "has" : "have", dropped == 1 ? "is" : "are"));
+  }
+  return true;
+}
+
+}  // namespace
+
+void reverse_winding(MeshData& mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+void compute_normals(MeshData& mesh) {
+  std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
+  for (const Triangle& t : mesh.triangles) {
+    const glm::dvec3 face_normal = normalized_or_zero(area_normal(mesh, t));
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 corner = to_dvec(mesh.positions[t[k]]);
+      const glm::dvec3 e1 = to_dvec(mesh.positions[t[(k + 1) % 3]]) - corner;
+      const glm::dvec3 e2 = to_dvec(mesh.positions[t[(k + 2) % 3]]) - corner;
+      sums[t[k]] += std::atan2(glm::length(glm::cross(e1, e2)), glm::dot(e1, e2)) * face_normal;
+    }
+  }
+  mesh.normals.resize(sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) mesh.normals[i] = to_float(normalized_or_zero(sums[i]));
+}
+
+bool normals_are_flat(const MeshData& mesh) {
+  // 1 - cos of 0.003 degrees: what floats leave between equal normals, less than any curvature that could be seen.
+  constexpr double kFlat = 1e-9;
+  for (const Triangle& t : mesh.triangles) {
+    const glm::dvec3 face_normal = glm::normalize(area_normal(mesh, t));
+    for (const std::uint32_t vertex : t) {
+      if (glm::dot(glm::normalize(to_dvec(mesh.normals[vertex])), face_normal) < 1 - kFlat) return false;
+    }
+  }
+  return true;
+}
+
+bool place_mesh(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
+  if (!move_to_world(mesh, to_world, p) || !drop_degenerate_triangles(mesh, p)) return false;
+  if (!mesh.normals.empty()) {
+    fill_missing_normals(mesh);
+    wind_as_normals_say(mesh);
+  }
+  return true;
+}
+
+std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, ReadMesh& read, bool flip_tex_coords) {
+  const std::string path = p.file("filename");
+  const glm::dmat4 to_world = p.transform("to_world");
+  const bool face_normals = p.boolean("face_normals", false);
+  const bool flip_normals = p.boolean("flip_normals", false);
+  flip_tex_coords = p.boolean("flip_tex_coords", flip_tex_coords);
+  if (path.empty()) return std::nullopt;
+
+  std::string problem;
+  const std::optional<std::string> bytes = builder.files().read(path, problem);
+  if (!bytes) {
+    p.error("filename", fmt::format("cannot read {}: {}", quoted(path, 200), problem));
+    return std::nullopt;
+  }
+  std::optional<MeshData> mesh = read(*bytes, path, builder.diagnostics());
+  if (!mesh) return std::nullopt;
+  if (face_normals) mesh->normals.clear();
+  if (!place_mesh(*mesh, to_world, p)) return std::nullopt;
+  if (!face_normals && mesh->normals.empty()) {
+    compute_normals(*mesh);
+    fill_missing_normals(*mesh);
+  }
+  if (!mesh->normals.empty() && normals_are_flat(*mesh)) mesh->normals.clear();
+  if (flip_normals) {
+    reverse_winding(*mesh);
+    for (auto& normal : mesh->normals) normal = to_float(-to_dvec(normal));
+  }
+  if (flip_tex_coords) {
+    for (auto& texcoord : mesh->texcoords) texcoord[1] = 1 - texcoord[1];
+  }
+  builder.describe(p.node(), fmt::format("{} triangle{}{}", mesh->triangles.size(), mesh->triangles.size() == 1 ? "" : "s",
+                                         mesh->normals.empty() ? "" : ", smooth"));
+  return ShapeGeometry{.mesh = std::move(*mesh), .spheres = {}};
+}
+
+}  // namespace norrsken

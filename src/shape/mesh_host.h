@@ -1,0 +1,47 @@
+// What all shapes made of triangles share: parameters of mesh files, placing, vertex normals.
+//
+// Parameters of mesh files
+//   filename         string, required
+//   to_world         transform (default identity); vertex normals go through its inverse transpose
+//   face_normals     boolean (default false): shade flat, whatever normals the file has
+//   flip_normals     boolean (default false): turn the surface inside out
+//   flip_tex_coords  boolean: v becomes 1 - v
+//
+// Normals, as Mitsuba documents them: the file's own; without any, the mean of the faces around each vertex weighed with
+// the angle of their corner, so only vertices that faces do not share stay sharp. A mesh without normals of its own is
+// turned inside out by a mirroring `to_world`, like in Mitsuba, because its winding is what says where its front is.
+//
+// Departures: Mitsuba tells front from back by the shading normal. Here the geometric normal does, and a triangle whose
+// winding contradicts the file's vertex normals is wound the other way, which comes to the same.
+//
+// Sources: Thuermer and Wuethrich 1998, Computing Vertex Normals from Polygonal Facets (the weights).
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "compile/builder.h"
+
+namespace norrsken {
+
+using ReadMesh = std::optional<MeshData>(std::string_view bytes, const std::string& path, Diagnostics& diagnostics);
+
+/// A shape that reads its mesh from the file that its parameters name.
+std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, ReadMesh& read, bool flip_tex_coords);
+
+/// Takes positions and normals to the world, winds triangles as their normals say, and drops triangles without an area
+/// (a warning with their number). False after an error: nothing with an area, or a vertex too far away.
+bool place_mesh(MeshData& mesh, const glm::dmat4& to_world, Parameters& p);
+
+/// Turns the front of every triangle to the other side; normals are left alone.
+void reverse_winding(MeshData& mesh);
+
+/// Replaces the normals by angle-weighted means of the faces around each vertex.
+void compute_normals(MeshData& mesh);
+
+/// Whether every vertex normal is that of its face, so that the mesh may be shaded flat.
+bool normals_are_flat(const MeshData& mesh);
+
+}  // namespace norrsken

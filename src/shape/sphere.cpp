@@ -1,0 +1,74 @@
+// sphere: centre and radius.
+//
+// Parameters
+//   center        point, scene units (default 0 0 0)
+//   radius        number above 0, scene units (default 1)
+//   to_world      transform (default identity), applied to the sphere of that centre and radius; its scale must be the
+//                 same in all directions
+//   flip_normals  boolean (default false): the normal points to the centre
+// A mirroring `to_world` turns the normal around, as in Mitsuba.
+// Departures: Mitsuba warns of a scale that differs between directions and renders a sphere; here it is an error.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/matrix.hpp>
+
+#include "compile/plugins.h"
+
+namespace norrsken {
+namespace {
+
+/// How far from a multiple of a rotation a linear map may be, relative to that multiple: what ten digits of a matrix
+/// written out by hand or a chain of rotations may leave.
+constexpr double kUniformTolerance = 1e-5;
+
+bool scales_uniformly(const glm::dmat3& linear, double scale) {
+  const glm::dmat3 gram = glm::transpose(linear) * linear;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (std::abs(gram[i][j] / (scale * scale) - (i == j)) > kUniformTolerance) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<ShapeGeometry> compile_shape_sphere(Parameters& p, Builder& builder) {
+  const glm::dvec3 center = p.point("center", glm::dvec3(0));
+  double radius = p.number("radius", 1, 0, kMaxCoordinate);
+  if (radius == 0) {
+    p.error("radius", "'radius' is 0", "a number above 0");
+    radius = 1;
+  }
+  const glm::dmat4 to_world = p.transform("to_world");
+  const bool flip_normals = p.boolean("flip_normals", false);
+
+  const glm::dmat3 linear(to_world);
+  const double determinant = glm::determinant(linear);
+  const double scale = std::cbrt(std::abs(determinant));
+  if (!scales_uniformly(linear, scale)) {
+    p.error("to_world", "'to_world' does not scale the sphere alike in all directions",
+            "translations, rotations and scales with one value");
+    return std::nullopt;
+  }
+  const glm::dvec3 world_center = to_world * glm::dvec4(center, 1);
+  const double world_radius = radius * scale;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(world_center[axis]) <= kMaxCoordinate) || !(world_radius <= kMaxCoordinate)) {
+      p.error("to_world", "the sphere is placed too far away or made too large",
+              fmt::format("coordinates up to {}", kMaxCoordinate));
+      return std::nullopt;
+    }
+  }
+  if (!std::isnormal(static_cast<float>(world_radius))) {
+    p.error("radius", fmt::format("the sphere's radius of {} is too small to be told from 0", world_radius));
+    return std::nullopt;
+  }
+  builder.describe(p.node(), fmt::format("radius {:.6g}", world_radius));
+  ShapeGeometry geometry;
+  geometry.spheres.push_back({world_center, world_radius, flip_normals != (determinant < 0)});
+  return geometry;
+}
+
+}  // namespace norrsken
