@@ -14,7 +14,7 @@
 namespace norrsken {
 
 struct RenderOptions {
-  std::optional<int> samples_per_pixel;  ///< in place of the scene's
+  std::optional<int> samples_per_pixel = {};  ///< in place of the scene's
   std::uint64_t seed = 0;
   int threads = 0;                       ///< 0: one per hardware thread
   std::string isa = "auto";              ///< auto, scalar, sse4.2, avx2, avx512

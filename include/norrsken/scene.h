@@ -18,9 +18,9 @@ struct LoadedScene;  // the scene as tables; private to the library
 /// What the command line may say over the scene file's head.
 struct LoadOptions {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< -Dname=value, in order, later ones win
-  std::optional<std::string> integrator;                        ///< plugin name in place of the file's
-  std::optional<std::string> sampler;
-  std::optional<int> width, height;
+  std::optional<std::string> integrator = {};                        ///< plugin name in place of the file's
+  std::optional<std::string> sampler = {};
+  std::optional<int> width = {}, height = {};
 };
 
 /// What `norrsken info` tells.

@@ -24,6 +24,11 @@ double polygon_irradiance(double radiance, std::span<const Vec> polygon, const V
   return radiance / 2 * std::abs(sum);
 }
 
+double sphere_irradiance(double radiance, const Vec& centre, double radius, const Vec& point, const Vec& normal) {
+  const Vec d = centre - point;
+  return radiance * std::numbers::pi * radius * radius / dot(d, d) * dot(d, normal) / length(d);
+}
+
 double reflected_radiance(double albedo, double irradiance) { return albedo * irradiance / std::numbers::pi; }
 
 double uniform_room_radiance(double emission, double reflectance, int bounces) {

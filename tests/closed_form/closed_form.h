@@ -20,6 +20,11 @@ double point_light_irradiance(double intensity, const Vec& light, const Vec& poi
 /// partially occluded polyhedral sources", equation 2.)
 double polygon_irradiance(double radiance, std::span<const Vec> polygon, const Vec& point, const Vec& normal);
 
+/// Irradiance of a sphere of uniform radiance L, wholly above the horizon of a point with unit normal. The cone of
+/// tangents cuts the unit sphere around the point in a circle of radius sin(a) = radius / distance, whose projection
+/// onto the plane has the area pi sin^2(a) cos: E = L pi sin^2(a) cos. (Nusselt 1928.)
+double sphere_irradiance(double radiance, const Vec& centre, double radius, const Vec& point, const Vec& normal);
+
 /// Radiance that leaves a Lambertian surface of reflectance `albedo` under an irradiance: albedo E / pi.
 double reflected_radiance(double albedo, double irradiance);
 

@@ -54,6 +54,26 @@ TEST(ClosedForm, PolygonFillingTheHemisphereGivesPiTimesItsRadiance) {
   EXPECT_NEAR(polygon_irradiance(2, sky, {0, 0, 0}, {0, 0, 1}), 2 * pi, 1e-5);
 }
 
+TEST(ClosedForm, SphereEqualsQuadratureOverItsCone) {
+  // Directions of the cone around `axis`: height w = 1 - k (1 - cos a), azimuth phi.
+  const Vec centre{0.7, -0.4, 2.5}, normal = normalize(Vec{0.2, 0.1, 1});
+  const double radius = 1.1;
+  const Vec axis = normalize(centre), u = normalize(cross(axis, {0, 1, 0})), v = cross(axis, u);
+  const double cap = 1 - std::sqrt(1 - radius * radius / dot(centre, centre));
+  constexpr int kSteps = 500;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      const double w = 1 - cap * (i + 0.5) / kSteps, phi = 2 * pi * (j + 0.5) / kSteps;
+      const double r = std::sqrt(1 - w * w);
+      sum += dot(normal, w * axis + r * std::cos(phi) * u + r * std::sin(phi) * v);
+    }
+  }
+  const double solid_angle = 2 * pi * cap;
+  EXPECT_NEAR(sphere_irradiance(3, centre, radius, {0, 0, 0}, normal) / (3 * solid_angle * sum / (kSteps * kSteps)), 1,
+              1e-6);
+}
+
 TEST(ClosedForm, UniformRoomIsAGeometricSeries) {
   EXPECT_DOUBLE_EQ(uniform_room_radiance(2, 0.5, 0), 2);
   EXPECT_DOUBLE_EQ(uniform_room_radiance(2, 0.5, 1), 3);

@@ -33,16 +33,17 @@ statistics::Picture average(int width, int height, RadianceAt radiance_at) {
 
 }  // namespace
 
-statistics::Picture PlaneScene::lit_by_point(int width, int height) {
-  return average(width, height, [](const Vec& point) {
-    const double irradiance = point_light_irradiance(1, kPointLight.position, point, kUp);
-    return kPointLight.intensity * kAlbedo * reflected_radiance(1, irradiance);
-  });
-}
-
-statistics::Picture PlaneScene::lit_by_rectangle(int width, int height) {
-  return average(width, height, [](const Vec& point) {
-    return kRectangleRadiance * kAlbedo * reflected_radiance(1, polygon_irradiance(1, kRectangle, point, kUp));
+statistics::Picture PlaneScene::image(Light light, int width, int height) {
+  const auto shines = [light](Light which) { return light == which || light == Light::all; };
+  return average(width, height, [&](const oracle::Vec& point) {
+    oracle::Rgb irradiance;
+    if (shines(Light::point)) irradiance += kPoint.intensity * point_light_irradiance(1, kPoint.position, point, kUp);
+    if (shines(Light::rectangle)) irradiance += kRectangleRadiance * polygon_irradiance(1, kRectangle, point, kUp);
+    if (shines(Light::triangle)) irradiance += kTriangleRadiance * polygon_irradiance(1, kTriangle, point, kUp);
+    if (shines(Light::sphere)) {
+      irradiance += kSphereRadiance * sphere_irradiance(1, kSphereCentre, kSphereRadius, point, kUp);
+    }
+    return kAlbedo * irradiance * reflected_radiance(1, 1);
   });
 }
 

@@ -39,20 +39,6 @@ Scene plane() {
   return scene;
 }
 
-/// A closed box 4 x 4 x 3 around the origin, every side of one material and emission.
-Scene box(const Material& material, const Rgb& emission) {
-  Scene scene;
-  const Vec a{4, 0, 0}, b{0, 4, 0}, c{0, 0, 3};
-  const Vec low{-2, -2, -1.5}, high{2, 2, 1.5};
-  for (const auto& [u, v] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
-    scene.add_parallelogram(low, u, v, {}, material, emission);
-    scene.add_parallelogram(high, -u, -v, {}, material, emission);
-  }
-  return scene;
-}
-
-constexpr Camera kInsideBox{{-1, 0.3, 0.2}, {0, 1.3, 1.2}, {0, -2, 0}, {0, 0, -2}};
-
 TEST(Intersection, TriangleIsHitWhereItsBarycentricsSay) {
   const Triangle triangle{{1, 0, 2}, {4, 1, 2}, {2, 3, 5}, {}, {}, {}};
   const Vec origin{7, -3, 9};
@@ -104,11 +90,11 @@ TEST(Room, CameraSeesTheGreenWallsSidesTheRightWayRound) {
 
 TEST(Oracle, PointLightOverPlane) {
   Scene scene = plane();
-  scene.point_lights.push_back(PlaneScene::kPointLight);
+  scene.point_lights.push_back(PlaneScene::kPoint);
   Judge judge("oracle.point_light_over_plane");
   judge.compare(
       "", replicates(scene, PlaneScene::kCamera, {.bounces = 1}, 32, 16, statistics::standard_regions(kSize, kSize)),
-      PlaneScene::lit_by_point(kSize, kSize));
+      PlaneScene::image(PlaneScene::Light::point, kSize, kSize));
   EXPECT_TRUE(judge.verdict());
 }
 
@@ -121,13 +107,13 @@ TEST(Oracle, RectangleOverPlane) {
   judge.compare("",
                 replicates(scene, PlaneScene::kCamera, {.bounces = 2, .light_rays = 4}, 32, 64,
                            statistics::standard_regions(kSize, kSize)),
-                PlaneScene::lit_by_rectangle(kSize, kSize));
+                PlaneScene::image(PlaneScene::Light::rectangle, kSize, kSize));
   EXPECT_TRUE(judge.verdict());
 }
 
 TEST(Oracle, UniformRoomIsAGeometricSeries) {
   const Rgb emission{1, 2, 0.5}, albedo{0.5, 0.8, 0.2};
-  const Scene scene = box({Material::Kind::diffuse, albedo}, emission);
+  const Scene scene = closed_box({Material::Kind::diffuse, albedo}, emission);
   const auto regions =
       statistics::regions_of(kSize, kSize, std::array{statistics::Grid{1, 0.005}, statistics::Grid{2, 0.01}});
   Judge judge("oracle.uniform_room");
@@ -139,7 +125,8 @@ TEST(Oracle, UniformRoomIsAGeometricSeries) {
                closed_form::uniform_room_radiance(emission.z, albedo.z, bounces)};
     }
     judge.compare(std::to_string(bounces) + " bounces",
-                  replicates(scene, kInsideBox, {.bounces = bounces, .light_rays = 0}, 32, 128, regions), expected);
+                  replicates(scene, kInsideBoxCamera, {.bounces = bounces, .light_rays = 0}, 32, 128, regions),
+                  expected);
   }
   EXPECT_TRUE(judge.verdict());
 }
@@ -169,15 +156,12 @@ TEST(Oracle, MirrorShowsWhatItFaces) {
 }
 
 TEST(Oracle, ShadowRaysAgreeWithChanceHits) {
-  // A box with a large lamp, a mirror sphere that casts its caustic and a shadow on the floor.
-  Scene scene = box({Material::Kind::diffuse, {0.3, 0.5, 0.7}}, {});
-  scene.add_parallelogram({-1.5, -1.5, 1.4}, {3, 0, 0}, {0, 3, 0}, {}, {}, {2, 2, 2});
-  scene.spheres.push_back({{0.8, 0.2, -0.7}, 0.6, {Material::Kind::mirror, {}}});
+  const Scene scene = lamp_box();
   const auto regions =
       statistics::regions_of(kSize, kSize, std::array{statistics::Grid{1, 0.01}, statistics::Grid{2, 0.04}});
   Judge judge("oracle.shadow_rays_against_chance_hits");
-  judge.compare("", replicates(scene, kInsideBox, {.bounces = 3, .light_rays = 1}, 32, 64, regions),
-                replicates(scene, kInsideBox, {.bounces = 3, .light_rays = 0}, 32, 192, regions));
+  judge.compare("", replicates(scene, kInsideBoxCamera, {.bounces = 3, .light_rays = 1}, 32, 64, regions),
+                replicates(scene, kInsideBoxCamera, {.bounces = 3, .light_rays = 0}, 32, 192, regions));
   EXPECT_TRUE(judge.verdict());
 }
 

@@ -1,6 +1,7 @@
 #include "tests/oracle/scene.h"
 
 #include <array>
+#include <utility>
 
 namespace norrsken::oracle {
 
@@ -67,6 +68,24 @@ Scene hexagon_room(RoomLight light) {
 Camera hexagon_room_camera() {
   // Looking along +x with z up, +y is to the left.
   return {{-1, 0, 0}, {0, 1, 1}, {0, -2, 0}, {0, 0, -2}};
+}
+
+Scene closed_box(const Material& material, const Rgb& emission) {
+  Scene scene;
+  const Vec a{4, 0, 0}, b{0, 4, 0}, c{0, 0, 3};
+  const Vec low{-2, -2, -1.5}, high{2, 2, 1.5};
+  for (const auto& [u, v] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+    scene.add_parallelogram(low, u, v, {}, material, emission);
+    scene.add_parallelogram(high, -u, -v, {}, material, emission);
+  }
+  return scene;
+}
+
+Scene lamp_box() {
+  Scene scene = closed_box(diffuse(0.3, 0.5, 0.7), {});
+  scene.add_parallelogram({-1.5, -1.5, 1.4}, {3, 0, 0}, {0, 3, 0}, {}, diffuse(0, 0, 0), {2, 2, 2});
+  scene.spheres.push_back({{0.8, 0.2, -0.7}, 0.6, {Material::Kind::mirror, {}}});
+  return scene;
 }
 
 }  // namespace norrsken::oracle

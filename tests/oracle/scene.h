@@ -59,4 +59,11 @@ Scene hexagon_room(RoomLight light);
 /// The report's camera: eye (-1,0,0), image plane of 2 x 2 units around the origin, z up.
 Camera hexagon_room_camera();
 
+/// A closed box 4 x 4 x 3 around the origin, every side of one material and emission, facing inward.
+Scene closed_box(const Material& material, const Rgb& emission);
+/// The box with a large lamp below its ceiling and a mirror sphere that casts a caustic.
+Scene lamp_box();
+/// Looks along +x from within the box, z up, 90 degrees.
+inline constexpr Camera kInsideBoxCamera{{-1, 0.3, 0.2}, {0, 1.3, 1.2}, {0, -2, 0}, {0, 0, -2}};
+
 }  // namespace norrsken::oracle

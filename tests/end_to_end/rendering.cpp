@@ -1,0 +1,60 @@
+#include "tests/end_to_end/rendering.h"
+
+#include <stdexcept>
+
+namespace norrsken::end_to_end {
+
+namespace {
+
+[[noreturn]] void fail(const Diagnostics& diagnostics) {
+  std::string text;
+  for (const Diagnostic& diagnostic : diagnostics.all()) text += to_text(diagnostic) + '\n';
+  throw std::runtime_error(text);
+}
+
+}  // namespace
+
+Scene load(const std::string& path_or_name, const LoadOptions& options) {
+  Diagnostics diagnostics;
+  auto scene = Scene::load(path_or_name, options, diagnostics);
+  if (!scene || !diagnostics.all().empty()) fail(diagnostics);
+  return *scene;
+}
+
+Scene load_test_scene(const std::string& file, const SceneParameters& parameters) {
+  return load(NORRSKEN_TEST_SCENES "/" + file, {.parameters = parameters});
+}
+
+Image render_image(const Scene& scene, const RenderOptions& options, bool layers) {
+  Diagnostics diagnostics;
+  const auto render = Render::create(scene, options, diagnostics);
+  if (!render) fail(diagnostics);
+  if (render->run().dropped_samples > 0) throw std::runtime_error("samples were dropped");
+  return render->image(layers);
+}
+
+statistics::Picture picture_of(const Image& image) {
+  statistics::Picture picture(image.width, image.height);
+  const Channel* const channels[] = {image.find("R"), image.find("G"), image.find("B")};
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!channels[c] || channels[c]->values.size() != picture.pixels.size()) {
+      throw std::runtime_error("the image lacks R, G or B, or they are not of its size");
+    }
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+      picture.pixels[i][c] = static_cast<double>(channels[c]->values[i]);
+    }
+  }
+  return picture;
+}
+
+statistics::RegionMeans render_replicates(const Scene& scene, RenderOptions options, int seeds,
+                                          std::vector<statistics::Region> regions, std::uint64_t first_seed) {
+  statistics::RegionMeans means(std::move(regions));
+  for (int i = 0; i < seeds; ++i) {
+    options.seed = first_seed + static_cast<std::uint64_t>(i);
+    means.add(picture_of(render_image(scene, options)));
+  }
+  return means;
+}
+
+}  // namespace norrsken::end_to_end

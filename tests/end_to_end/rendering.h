@@ -1,0 +1,34 @@
+// Rendering through the public interface, as the end-to-end tests need it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "norrsken/render.h"
+#include "norrsken/scene.h"
+#include "tests/statistics/estimate.h"
+
+namespace norrsken::end_to_end {
+
+using SceneParameters = std::vector<std::pair<std::string, std::string>>;
+
+/// Threads of every rendering that is not about threads.
+inline constexpr int kThreads = 2;
+
+/// Loads a scene by name, or a file of tests/scenes. Throws std::runtime_error with the complaints if there are any.
+Scene load(const std::string& path_or_name, const LoadOptions& options = {});
+/// A file of tests/scenes.
+Scene load_test_scene(const std::string& file, const SceneParameters& parameters = {});
+
+/// Renders to the end. Throws std::runtime_error with the complaints if there are any, or if a sample was dropped.
+Image render_image(const Scene& scene, const RenderOptions& options, bool layers = false);
+
+/// R, G, B of an image.
+statistics::Picture picture_of(const Image& image);
+
+/// Images of `seeds` different seeds from `first_seed` on, other options as given, averaged over the regions.
+statistics::RegionMeans render_replicates(const Scene& scene, RenderOptions options, int seeds,
+                                          std::vector<statistics::Region> regions, std::uint64_t first_seed = 1);
+
+}  // namespace norrsken::end_to_end
