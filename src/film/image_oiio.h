@@ -1,0 +1,16 @@
+// The one entry of the module that reads images through OpenImageIO.
+#pragma once
+
+#include <string>
+
+#include "norrsken/image.h"
+
+/// Reads the first image of the file into `image`, or says in `error` what is wrong. `path` is a regular file.
+extern "C" bool norrsken_oiio_read(const std::string& path, norrsken::Image& image, std::string& error) noexcept;
+
+namespace norrsken {
+
+/// Values that an image may have in all, so that a forged header cannot ask for all the memory: 4 GiB of float.
+inline constexpr std::size_t kMostImageValues = std::size_t{1} << 30;
+
+}  // namespace norrsken

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "color/tone.h"
+#include "film/image_encode.h"
+#include "film/image_file.h"
+#include "norrsken/image.h"
+
+namespace norrsken {
+namespace {
+
+enum class Format { exr, png, jpeg };
+
+constexpr struct {
+  const char* extension;
+  Format format;
+} kFormats[] = {{".exr", Format::exr}, {".png", Format::png}, {".jpg", Format::jpeg}, {".jpeg", Format::jpeg}};
+
+IoStatus failure(const std::string& path, const std::string& reason) {
+  return {"cannot write '" + path + "': " + reason};
+}
+
+IoStatus find_format(const std::string& path, Format& format) {
+  const std::string written = std::filesystem::path(path).extension().string();
+  std::string extension = written, accepted;
+  std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  for (const auto& known : kFormats) {
+    if (extension == known.extension) {
+      format = known.format;
+      return {};
+    }
+    accepted += (accepted.empty() ? "" : ", ") + std::string(known.extension);
+  }
+  return failure(path, (written.empty() ? "no file name extension" : "unknown file name extension '" + written + "'") +
+                           ", accepted: " + accepted);
+}
+
+/// What is wrong with the image whatever its format, or nothing.
+std::string complaint_about(const Image& image) {
+  const std::string size = std::to_string(image.width) + "x" + std::to_string(image.height);
+  if (image.width < 1 || image.height < 1) return "the image has " + size + " pixels";
+  if (image.channels.empty()) return "the image has no channels";
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  std::set<std::string_view> names;
+  for (const Channel& channel : image.channels) {
+    if (channel.name.empty()) return "a channel has no name";
+    if (!names.insert(channel.name).second) return "there are two channels '" + channel.name + "'";
+    if (channel.values.size() != pixels) return "channel '" + channel.name + "' does not have " + size + " pixels";
+  }
+  return {};
+}
+
+/// The tone-mapped bytes of R, G and B, or what is missing.
+std::string to_bytes(const Image& image, const ToneMapping& tone, int largest_side, ByteImage& bytes) {
+  if (std::max(image.width, image.height) > largest_side) {
+    return "the image has " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+           " pixels, the format takes " + std::to_string(largest_side) + " along a side";
+  }
+  bytes.width = image.width;
+  bytes.height = image.height;
+  bytes.pixels.resize(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  const ToneMapper mapper(tone);
+  std::size_t offset = 0;
+  for (const char* name : {"R", "G", "B"}) {
+    const Channel* channel = image.find(name);
+    if (channel == nullptr) return std::string("the image has no channel ") + name + ", the format needs R, G and B";
+    for (std::size_t i = 0; i < channel->values.size(); ++i) {
+      bytes.pixels[3 * i + offset] = byte_from_unit(mapper(channel->values[i]));
+    }
+    ++offset;
+  }
+  return {};
+}
+
+}  // namespace
+
+IoStatus write_image(const std::string& path, const Image& image, const ToneMapping& tone) {
+  Format format{};
+  if (IoStatus status = find_format(path, format); !status) return status;
+  if (const std::string complaint = complaint_about(image); !complaint.empty()) return failure(path, complaint);
+
+  ByteImage bytes;
+  if (format != Format::exr) {
+    const int largest_side = format == Format::png ? kLargestPngSide : kLargestJpegSide;
+    const std::string complaint = to_bytes(image, tone, largest_side, bytes);
+    if (!complaint.empty()) return failure(path, complaint);
+  }
+
+  AtomicFile file;
+  if (IoStatus status = file.create(path); !status) return status;
+  std::string complaint;
+  switch (format) {
+    case Format::exr:
+      complaint = encode_exr(file, image);
+      break;
+    case Format::png:
+      complaint = encode_png(file, bytes, image.metadata);
+      break;
+    case Format::jpeg:
+      complaint = encode_jpeg(file, bytes);
+      break;
+  }
+  // A disk that is full says more than a library that could not write.
+  if (file.failed() || complaint.empty()) return file.commit();
+  return failure(path, complaint);
+}
+
+IoStatus check_writable(const std::string& path) {
+  Format format{};
+  if (IoStatus status = find_format(path, format); !status) return status;
+  AtomicFile file;  // removed again, as it is not committed
+  return file.create(path);
+}
+
+}  // namespace norrsken
