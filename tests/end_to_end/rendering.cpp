@@ -1,5 +1,6 @@
 #include "tests/end_to_end/rendering.h"
 
+#include <cstdlib>
 #include <stdexcept>
 
 namespace norrsken::end_to_end {
@@ -25,7 +26,8 @@ Scene load_test_scene(const std::string& file, const SceneParameters& parameters
   return load(NORRSKEN_TEST_SCENES "/" + file, {.parameters = parameters});
 }
 
-Image render_image(const Scene& scene, const RenderOptions& options, bool layers) {
+Image render_image(const Scene& scene, RenderOptions options, bool layers) {
+  if (const char* isa = std::getenv("NORRSKEN_TEST_ISA"); isa != nullptr && options.isa == "auto") options.isa = isa;
   Diagnostics diagnostics;
   const auto render = Render::create(scene, options, diagnostics);
   if (!render) fail(diagnostics);

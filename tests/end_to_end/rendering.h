@@ -21,8 +21,9 @@ Scene load(const std::string& path_or_name, const LoadOptions& options = {});
 /// A file of tests/scenes.
 Scene load_test_scene(const std::string& file, const SceneParameters& parameters = {});
 
-/// Renders to the end. Throws std::runtime_error with the complaints if there are any, or if a sample was dropped.
-Image render_image(const Scene& scene, const RenderOptions& options, bool layers = false);
+/// Renders to the end; an instruction set that is left to choose is the environment's NORRSKEN_TEST_ISA if that is
+/// given. Throws std::runtime_error with the complaints if there are any, or if a sample was dropped.
+Image render_image(const Scene& scene, RenderOptions options, bool layers = false);
 
 /// R, G, B of an image.
 statistics::Picture picture_of(const Image& image);
