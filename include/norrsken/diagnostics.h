@@ -53,4 +53,8 @@ class Diagnostics {
 /// shown, with "..." for the rest.
 std::string to_text(const Diagnostic& diagnostic);
 
+/// The end of a complaint about an unknown word: ", did you mean 'WORD'?" with the nearest of `words`, or nothing if
+/// none is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& words);
+
 }  // namespace norrsken

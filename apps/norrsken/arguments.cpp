@@ -1,0 +1,188 @@
+#include "arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace norrsken::cli {
+namespace {
+
+/// The whole of `text` as a number.
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string found(const std::string& text, std::string_view accepted) {
+  return fmt::format("found '{}', accepted is {}", text, accepted);
+}
+
+/// Names of a command's options as they are typed: "--spp", "-o".
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string unknown_word(std::string_view what, std::string_view word, const std::vector<std::string>& accepted) {
+  const std::string hint = did_you_mean(word, accepted);
+  return fmt::format("unknown {} '{}'{} accepted: {}", what, word, hint.empty() ? ";" : hint,
+                     fmt::join(accepted, ", "));
+}
+
+std::pair<std::string, std::string> parse_definition(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) return {};
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::pair<int, int> parse_size(const std::string& text) {
+  const auto x = text.find_first_of("xX");
+  if (x == std::string::npos) return {0, 0};
+  const auto width = parse_number<int>(std::string_view(text).substr(0, x));
+  const auto height = parse_number<int>(std::string_view(text).substr(x + 1));
+  if (!width || !height || *width < 1 || *height < 1) return {0, 0};
+  return {*width, *height};
+}
+
+CLI::Validator whole_number(std::int64_t min, std::int64_t max) {
+  return CLI::Validator(
+      [=](const std::string& text) {
+        const auto value = parse_number<std::int64_t>(text);
+        if (value && *value >= min && *value <= max) return std::string();
+        return found(text, fmt::format("a whole number from {} to {}", min, max));
+      },
+      "");
+}
+
+CLI::Validator seed_number() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        if (parse_number<std::uint64_t>(text)) return std::string();
+        return found(text, fmt::format("a whole number from 0 to {}", std::numeric_limits<std::uint64_t>::max()));
+      },
+      "");
+}
+
+CLI::Validator real_number(double min, double max) {
+  return CLI::Validator(
+      [=](const std::string& text) {
+        const auto value = parse_number<double>(text);
+        if (value && std::isfinite(*value) && *value >= min && *value <= max) return std::string();
+        return found(text, fmt::format("a number from {} to {}", min, max));
+      },
+      "");
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  return CLI::Validator(
+      [words = std::move(words)](const std::string& text) {
+        if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+        return unknown_word("value", text, words);
+      },
+      "");
+}
+
+CLI::Validator image_size() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return parse_size(text).first > 0 ? std::string() : found(text, "WIDTHxHEIGHT in pixels, as in 800x600");
+      },
+      "");
+}
+
+CLI::Validator definition() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return parse_definition(text).first.empty() ? found(text, "NAME=VALUE, as in -Dlight=point") : std::string();
+      },
+      "");
+}
+
+void SceneArguments::add_to(CLI::App& command) {
+  command.add_option("SCENE", scene, "Mitsuba 3 XML file, or a name that 'norrsken scenes' lists")
+      ->required()
+      ->type_name("");
+  command.add_option("-D", definitions, "Set the scene's $NAME, as in -Dlight=point; may be repeated")
+      ->check(definition())
+      ->take_all()
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
+  command.add_option("--integrator", integrator, "Integrator in place of the scene's: path, direct, whitted")
+      ->type_name("NAME");
+  command.add_option("--sampler", sampler, "Sampler in place of the scene's: sobol, independent")->type_name("NAME");
+  command.add_option("--size", size, "Image size in pixels in place of the scene's")
+      ->check(image_size())
+      ->type_name("WxH");
+}
+
+LoadOptions SceneArguments::load_options() const {
+  LoadOptions options;
+  for (const std::string& text : definitions) options.parameters.push_back(parse_definition(text));
+  if (!integrator.empty()) options.integrator = integrator;
+  if (!sampler.empty()) options.sampler = sampler;
+  if (!size.empty()) std::tie(options.width, options.height) = parse_size(size);
+  return options;
+}
+
+void MachineArguments::add_to(CLI::App& command, bool with_accelerator) {
+  command.add_option("--threads", threads, "Worker threads; 0 (default): one per hardware thread")
+      ->check(whole_number(0, 4096))
+      ->type_name("N");
+  command.add_option("--isa", isa, "Instruction set: auto (default), avx512, avx2, sse4.2, scalar")->type_name("NAME");
+  if (!with_accelerator) return;
+  command
+      .add_option("--accel", accelerator,
+                  "How rays find what they hit: auto (default), planes, moller_trumbore, embree")
+      ->type_name("NAME");
+}
+
+void MachineArguments::apply_to(RenderOptions& options) const {
+  options.threads = threads;
+  options.isa = isa;
+  options.accelerator = accelerator;
+}
+
+void ToneArguments::add_to(CLI::App& command) {
+  command.add_option("--exposure", exposure, "Brighten PNG and JPEG by this many stops (factor 2 each); default 0")
+      ->check(real_number(-64, 64))
+      ->type_name("STOPS");
+  command.add_option("--tone", curve, "Tone curve of PNG and JPEG: srgb (default), filmic")
+      ->check(one_of({"srgb", "filmic"}))
+      ->type_name("CURVE");
+}
+
+ToneMapping ToneArguments::tone_mapping() const {
+  return {curve == "filmic" ? ToneMapping::Curve::filmic : ToneMapping::Curve::srgb, exposure};
+}
+
+std::string describe_usage_error(const CLI::App& app, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    const std::string text = error.what();
+    return fmt::format("option '{}' needs a value", text.substr(0, text.find(':')));
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
+  const auto chosen = app.get_subcommands();
+  const CLI::App& command = chosen.empty() ? app : *chosen.front();
+  const auto extras = app.remaining(true);
+  if (extras.empty()) return error.what();
+  const std::string& extra = extras.front();
+  if (!extra.starts_with('-')) return fmt::format("unexpected argument '{}'", extra);
+  const std::string name = extra.substr(0, extra.find('='));
+  return fmt::format("unknown option '{}'{}", name, did_you_mean(name, option_names(command)));
+}
+
+}  // namespace norrsken::cli

@@ -1,0 +1,66 @@
+// The pieces of which the subcommands build their command lines.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "exit_status.h"
+#include "norrsken/render.h"
+#include "norrsken/scene.h"
+
+namespace norrsken::cli {
+
+/// What a subcommand does once the whole command line is understood; the result is the exit status.
+using Action = std::function<ExitStatus()>;
+
+/// "unknown WHAT 'WORD', did you mean 'X'? accepted: X, Y".
+std::string unknown_word(std::string_view what, std::string_view word, const std::vector<std::string>& accepted);
+
+/// "NAME=VALUE" taken apart at the first '='; the name is empty if there is none.
+std::pair<std::string, std::string> parse_definition(const std::string& text);
+/// "800x600" or "800X600": width and height of at least 1; (0, 0) if it is anything else.
+std::pair<int, int> parse_size(const std::string& text);
+
+// Checks of one value; a complaint tells what was found and what is accepted.
+CLI::Validator whole_number(std::int64_t min, std::int64_t max);
+CLI::Validator seed_number();
+CLI::Validator real_number(double min, double max);
+CLI::Validator one_of(std::vector<std::string> words);
+CLI::Validator image_size();
+CLI::Validator definition();
+
+/// The scene and what may be said over its head: SCENE, -D, --integrator, --sampler, --size.
+struct SceneArguments {
+  std::string scene, integrator, sampler, size;
+  std::vector<std::string> definitions;
+
+  void add_to(CLI::App& command);
+  LoadOptions load_options() const;
+};
+
+/// What computes: --threads, --isa, --accel.
+struct MachineArguments {
+  int threads = 0;
+  std::string isa = "auto", accelerator = "auto";
+
+  void add_to(CLI::App& command, bool with_accelerator = true);
+  void apply_to(RenderOptions& options) const;
+};
+
+/// How radiance becomes colours: --exposure, --tone.
+struct ToneArguments {
+  float exposure = 0;
+  std::string curve = "srgb";
+
+  void add_to(CLI::App& command);
+  ToneMapping tone_mapping() const;
+};
+
+/// What is wrong with the command line, as one sentence with a suggestion where there is one.
+std::string describe_usage_error(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace norrsken::cli

@@ -1,0 +1,92 @@
+// norrsken compare: how far an image is from a reference.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "console.h"
+#include "norrsken/compare.h"
+#include "session.h"
+
+namespace norrsken::cli {
+namespace {
+
+struct Arguments {
+  std::string a, b, output;
+  ToneArguments tone;
+  bool json = false;
+};
+
+Image read_image_or_fail(const std::string& path) {
+  Image image;
+  const IoStatus status = read_image(path, image);
+  if (status) return image;
+  std::ifstream file(path);
+  file.peek();
+  throw Failure(file.good() ? ExitStatus::data_error : ExitStatus::no_input, status.error);
+}
+
+void print_as_json(const Arguments& arguments, const Comparison& comparison) {
+  nlohmann::ordered_json object = {{"image", arguments.a},      {"reference", arguments.b},
+                                   {"mse", comparison.mse},     {"rel_mse", comparison.rel_mse},
+                                   {"psnr", comparison.psnr},   {"flip", comparison.flip},
+                                   {"mean", comparison.mean_a}, {"reference_mean", comparison.mean_b},
+                                   {"z_test", nullptr}};
+  if (const auto& z = comparison.z_test)
+    object["z_test"] = {{"passed_share", z->passed_share}, {"rms_z", z->rms_z}, {"mean_z", z->mean_z}};
+  if (!arguments.output.empty()) object["file"] = arguments.output;
+  print_json(object);
+}
+
+void print_as_text(const Comparison& comparison) {
+  print_line(fmt::format("MSE     {:.6g}", comparison.mse));
+  print_line(fmt::format("relMSE  {:.6g}", comparison.rel_mse));
+  print_line(fmt::format("PSNR    {:.2f} dB", comparison.psnr));
+  print_line(fmt::format("FLIP    {:.4f}", comparison.flip));
+  print_line(fmt::format("mean    {:.6g}, reference {:.6g}", comparison.mean_a, comparison.mean_b));
+  if (const auto& z = comparison.z_test)
+    print_line(
+        fmt::format("z-test  {:.4g} % of the pixel channels pass, rms z {:.3f}, z of the means {:.2f} {:.2f} {:.2f}",
+                    100 * z->passed_share, z->rms_z, z->mean_z[0], z->mean_z[1], z->mean_z[2]));
+  else
+    print_line("z-test  none: neither image has variance layers (norrsken render --layers)");
+}
+
+ExitStatus compare_images(const Arguments& arguments) {
+  const bool wants_difference = !arguments.output.empty();
+  if (wants_difference) require_writable(arguments.output);
+  const Image a = read_image_or_fail(arguments.a), b = read_image_or_fail(arguments.b);
+  Comparison comparison;
+  CompareOptions options;
+  options.tone = arguments.tone.tone_mapping();
+  Image difference;
+  const IoStatus status = compare(a, b, options, comparison, wants_difference ? &difference : nullptr);
+  if (!status) throw Failure(ExitStatus::data_error, status.error);
+  if (wants_difference) write_image_or_fail(arguments.output, difference, options.tone);
+  arguments.json ? print_as_json(arguments, comparison) : print_as_text(comparison);
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("compare", "Tell how far an image is from a reference");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("IMAGE", arguments->a, "Image to judge")->required()->type_name("");
+  command->add_option("REFERENCE", arguments->b, "Image taken as right, of the same size")->required()->type_name("");
+  command->add_option("-o,--output", arguments->output, "Write the absolute difference to this EXR, PNG or JPEG file")
+      ->type_name("FILE");
+  arguments->tone.add_to(*command);
+  command->add_flag("--json", arguments->json, "Print one JSON object");
+  command->footer(
+      "MSE and relMSE are of linear radiance, PSNR and FLIP of the tone-mapped images. The z-test asks, for every\n"
+      "pixel, whether both images can be estimates of the same picture; it needs variance layers in one of them.\n\n"
+      "Examples:\n"
+      "  norrsken compare room.exr reference.exr\n"
+      "  norrsken compare room.exr reference.exr -o difference.png --exposure 2");
+  command->callback([&action, arguments] { action = [arguments] { return compare_images(*arguments); }; });
+}
+
+}  // namespace norrsken::cli

@@ -1,0 +1,82 @@
+#include "console.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+namespace norrsken::cli {
+namespace {
+
+constexpr std::string_view kRed = "\x1b[1;31m", kYellow = "\x1b[1;33m", kPlain = "\x1b[0m";
+
+void write_stderr(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
+/// `text` with the first `word` coloured, if stderr shows colour.
+std::string emphasize(std::string text, std::string_view word, std::string_view color) {
+  const auto at = text.find(word);
+  if (at == std::string::npos || !stderr_has_color()) return text;
+  text.insert(at + word.size(), kPlain);
+  return text.insert(at, color);
+}
+
+}  // namespace
+
+bool stderr_is_terminal() {
+  static const bool is_terminal = [] {
+    const char* term = std::getenv("TERM");
+    return isatty(STDERR_FILENO) == 1 && term != nullptr && std::string_view(term) != "dumb";
+  }();
+  return is_terminal;
+}
+
+int stderr_columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+bool stderr_has_color() {
+  const char* no_color = std::getenv("NO_COLOR");
+  return stderr_is_terminal() && (no_color == nullptr || *no_color == '\0');
+}
+
+void print_error(std::string_view message) {
+  write_stderr(emphasize(fmt::format("norrsken: error: {}\n", message), "error:", kRed));
+}
+
+void print_warning(std::string_view message) {
+  write_stderr(emphasize(fmt::format("norrsken: warning: {}\n", message), "warning:", kYellow));
+}
+
+void print_note(std::string_view message) { write_stderr(fmt::format("{}\n", message)); }
+
+void print_diagnostics(const Diagnostics& diagnostics, bool with_warnings) {
+  for (const Diagnostic& diagnostic : diagnostics.all()) {
+    const bool is_error = diagnostic.severity == Diagnostic::Severity::error;
+    if (!is_error && !with_warnings) continue;
+    std::string text = to_text(diagnostic);
+    // A complaint about the command line or a default stands in no file: say who speaks.
+    if (diagnostic.location.file.empty()) text.insert(0, "norrsken: ");
+    write_stderr(emphasize(text + '\n', is_error ? "error:" : "warning:", is_error ? kRed : kYellow));
+  }
+}
+
+void print_line(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fputc('\n', stdout);
+}
+
+void print_json(const nlohmann::ordered_json& object) {
+  print_line(object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  std::fflush(stdout);
+}
+
+void finish_stdout() {
+  const bool flushed = std::fflush(stdout) == 0;
+  if (!flushed || std::ferror(stdout) != 0) throw Failure(ExitStatus::io_error, "cannot write to the standard output");
+}
+
+}  // namespace norrsken::cli

@@ -1,0 +1,47 @@
+// What the program says and where: failures, warnings and notes on stderr, results on stdout.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "exit_status.h"
+#include "norrsken/diagnostics.h"
+
+namespace norrsken::cli {
+
+/// Ends a command: `main` prints the text, unless it is empty, and exits with the status.
+class Failure : public std::runtime_error {
+ public:
+  Failure(ExitStatus status, const std::string& message) : std::runtime_error(message), status_(status) {}
+  ExitStatus status() const { return status_; }
+
+ private:
+  ExitStatus status_;
+};
+
+/// Whether stderr is a terminal on which a line can be rewritten (not `TERM=dumb`).
+bool stderr_is_terminal();
+/// Columns of the terminal behind stderr; 80 if it does not say.
+int stderr_columns();
+/// Colour on stderr: on a terminal, unless NO_COLOR is set (https://no-color.org).
+bool stderr_has_color();
+
+/// "norrsken: error: MESSAGE" on stderr.
+void print_error(std::string_view message);
+void print_warning(std::string_view message);
+/// A plain line on stderr.
+void print_note(std::string_view message);
+/// Every diagnostic in its readable form on stderr; `with_warnings` false leaves the warnings out.
+void print_diagnostics(const Diagnostics& diagnostics, bool with_warnings = true);
+
+/// A line of text on stdout.
+void print_line(std::string_view text);
+/// One JSON object on one line of stdout, at once. Numbers that are not finite become null, bytes that are not UTF-8
+/// the replacement character.
+void print_json(const nlohmann::ordered_json& object);
+/// Flushes stdout; a Failure if anything printed there was lost (full disk, closed pipe).
+void finish_stdout();
+
+}  // namespace norrsken::cli

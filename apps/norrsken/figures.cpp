@@ -1,0 +1,268 @@
+// norrsken figures: the pictures of the report that the hexagon room comes from, measured.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "commands.h"
+#include "console.h"
+#include "equal_error.h"
+#include "figures_page.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "session.h"
+#include "text_format.h"
+
+namespace norrsken::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSceneName = "hexagon_room";
+
+struct Arguments {
+  std::string folder, sampler = "independent", command;
+  MachineArguments machine;
+  bool quick = false, quiet = false;
+};
+
+/// Light, integrator and counts of a figure, as the report gives them; its words as the caption.
+struct Figure {
+  int number;
+  const char *caption, *light, *integrator;
+  int spp, shadow_rays;
+};
+
+constexpr std::array<Figure, 9> kFigures = {{
+    {5, "5 samples per pixel (point light)", "point", "path", 5, 5},
+    {6, "Direct illumination from figure 5", "point", "whitted", 5, 5},
+    {7, "5 samples per pixel and 5 shadow rays", "area", "path", 5, 5},
+    {8, "5 samples per pixel and 20 shadow rays", "area", "path", 5, 20},
+    {9, "1 sample per pixel", "area", "path", 1, 1},
+    {10, "5 samples per pixel", "area", "path", 5, 5},
+    {11, "10 samples per pixel", "area", "path", 10, 10},
+    {12, "20 samples per pixel", "area", "path", 20, 20},
+    {13, "150 samples per pixel", "area", "path", 150, 150},
+}};
+
+/// What the figures are compared with: many samples of the low-discrepancy sampler, one shadow ray per hit.
+struct Reference {
+  const char *name, *stem, *light, *integrator;
+  int spp, quick_spp;
+};
+
+constexpr std::array<Reference, 3> kReferences = {{
+    {"Reference, area light", "reference_area", "area", "path", 4096, 1024},
+    {"Reference, point light", "reference_point", "point", "path", 4096, 1024},
+    {"Reference, direct light", "reference_direct", "point", "whitted", 1024, 256},
+}};
+
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name") && line.find(": ") != std::string::npos) return line.substr(line.find(": ") + 2);
+  return "";
+}
+
+/// Renders, measures, writes and tells; one rendering at a time.
+class Workshop {
+ public:
+  explicit Workshop(const Arguments& arguments)
+      : arguments_(arguments), meter_(arguments.quiet ? Verbosity::quiet : Verbosity::text) {
+    report_.command = arguments.command;
+    report_.machine = processor_name();
+    report_.width = report_.height = arguments.quick ? 200 : 800;
+  }
+
+  FiguresReport run() {
+    for (const Reference& reference : kReferences) make_reference(reference);
+    for (const Figure& figure : kFigures) {
+      FigureResult result = {.name = fmt::format("Figure {}", figure.number),
+                             .caption = figure.caption,
+                             .stem = fmt::format("figure_{:02}", figure.number),
+                             .light = figure.light,
+                             .integrator = figure.integrator,
+                             .sampler = arguments_.sampler,
+                             .spp = figure.spp,
+                             .shadow_rays = figure.shadow_rays};
+      write(result.stem, measure(result, static_cast<std::uint64_t>(figure.number)));
+      report_.figures.push_back(std::move(result));
+    }
+    measure_one_ray_series();
+    return std::move(report_);
+  }
+
+ private:
+  void make_reference(const Reference& reference) {
+    FigureResult result = {.name = reference.name,
+                           .caption = "Converged",
+                           .stem = reference.stem,
+                           .light = reference.light,
+                           .integrator = reference.integrator,
+                           .sampler = "sobol",
+                           .spp = arguments_.quick ? reference.quick_spp : reference.spp,
+                           .shadow_rays = 1};
+    Image image = render(result, 0);
+    write(result.stem, image);
+    references_[{reference.light, reference.integrator}] = std::move(image);
+    tell(result, result.statistics.relative_error);
+    report_.references.push_back(std::move(result));
+  }
+
+  /// Renders `result` and compares it with its reference.
+  Image measure(FigureResult& result, std::uint64_t seed) {
+    Image image = render(result, seed);
+    const auto reference = std::find_if(report_.references.begin(), report_.references.end(), [&](const auto& r) {
+      return r.light == result.light && r.integrator == result.integrator;
+    });
+    result.reference = reference->name;
+    const IoStatus status =
+        compare(image, references_.at({result.light, result.integrator}), CompareOptions{}, result.comparison);
+    if (!status) throw Failure(ExitStatus::internal, status.error);
+    tell(result, result.relative_rmse());
+    return image;
+  }
+
+  /// Samples and time at which one shadow ray per hit is as right as the last figure.
+  void measure_one_ray_series() {
+    const FigureResult& last = report_.figures.back();
+    auto& series = report_.one_ray;
+    std::map<int, Image> images;
+    std::vector<SppError> measured;
+    const auto render_and_measure = [&](int spp) {
+      FigureResult result = {.name = "One shadow ray per hit",
+                             .caption = fmt::format("{} sample{} per pixel", spp, spp == 1 ? "" : "s"),
+                             .stem = "",
+                             .light = last.light,
+                             .integrator = last.integrator,
+                             .sampler = last.sampler,
+                             .spp = spp,
+                             .shadow_rays = 1};
+      images[spp] = measure(result, 1000 + static_cast<std::uint64_t>(spp));
+      series.push_back(std::move(result));
+      return series.back().relative_rmse();
+    };
+    std::set<int> counts;  // those of the figures that differ from the last one in nothing else
+    for (const FigureResult& figure : report_.figures)
+      if (figure.light == last.light && figure.integrator == last.integrator) counts.insert(figure.spp);
+    for (const int spp : counts) measured.push_back({spp, render_and_measure(spp)});
+    const int equal_spp = find_equal_error(last.relative_rmse(), measured, render_and_measure).spp;
+
+    std::sort(series.begin(), series.end(), [](const FigureResult& a, const FigureResult& b) { return a.spp < b.spp; });
+    const auto equal =
+        std::find_if(series.begin(), series.end(), [&](const FigureResult& result) { return result.spp == equal_spp; });
+    equal->stem = last.stem + "_one_shadow_ray";
+    write(equal->stem, images.at(equal_spp));
+    report_.equal = static_cast<std::size_t>(equal - series.begin());
+  }
+
+  Image render(FigureResult& result, std::uint64_t seed) {
+    const LoadOptions load_options = {.parameters = {{"light", result.light},
+                                                     {"spp", std::to_string(result.spp)},
+                                                     {"shadow_rays", std::to_string(result.shadow_rays)},
+                                                     {"bounces", "3"}},
+                                      .integrator = result.integrator,
+                                      .sampler = result.sampler,
+                                      .width = report_.width,
+                                      .height = report_.height};
+    const Scene scene = load_scene(kSceneName, load_options);
+    RenderOptions options;
+    arguments_.machine.apply_to(options);
+    options.seed = seed;
+    const auto rendering = create_render(scene, options);
+    const InterruptGuard guard(*rendering);
+    meter_.start(fmt::format("{}: ", result.name));
+    result.statistics = rendering->run([this](const RenderProgress& progress) { meter_.update(progress); });
+    meter_.finish();
+    if (result.statistics.cancelled)
+      throw Failure(ExitStatus::interrupted,
+                    fmt::format("interrupted in '{}': what was finished before is in '{}', index.html was not written",
+                                result.name, arguments_.folder));
+    return rendering->image();
+  }
+
+  void write(const std::string& stem, const Image& image) const {
+    for (const char* extension : {".exr", ".png"})
+      write_image_or_fail((fs::path(arguments_.folder) / (stem + extension)).string(), image, ToneMapping{});
+  }
+
+  void tell(const FigureResult& result, double error) const {
+    if (arguments_.quiet) return;
+    print_note(fmt::format("{}: {} x {} samples, {} shadow ray{}; {}, {}rays, {:.1f} Msamples/s, error {}", result.name,
+                           result.spp, result.sampler, result.shadow_rays, result.shadow_rays == 1 ? "" : "s",
+                           format_duration(result.statistics.seconds), format_count(static_cast<double>(result.rays())),
+                           result.samples_per_second() / 1e6, format_percent(error)));
+  }
+
+  const Arguments& arguments_;
+  ProgressMeter meter_;
+  FiguresReport report_;
+  std::map<std::pair<std::string, std::string>, Image> references_;  ///< by light and integrator
+};
+
+/// Under a temporary name first, as images are: a reader never sees half of it.
+void write_text(const fs::path& path, const std::string& text) {
+  const fs::path temporary = fmt::format("{}.{}.tmp", path.string(), getpid());
+  std::ofstream file(temporary, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(temporary, path, error);
+  if (file && !error) return;
+  fs::remove(temporary, error);
+  throw Failure(ExitStatus::io_error, fmt::format("cannot write '{}'", path.string()));
+}
+
+ExitStatus figures(const Arguments& arguments) {
+  std::error_code error;
+  fs::create_directories(arguments.folder, error);
+  if (error)
+    throw Failure(ExitStatus::cannot_create,
+                  fmt::format("cannot create the folder '{}': {}", arguments.folder, error.message()));
+  require_writable((fs::path(arguments.folder) / "figure_05.png").string());
+
+  const FiguresReport report = Workshop(arguments).run();
+  const fs::path page = fs::path(arguments.folder) / "index.html";
+  write_text(page, figures_page(report));
+  if (!arguments.quiet) print_note(fmt::format("wrote {} and the images beside it", page.string()));
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_figures_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("figures", "Render and measure the nine figures of the room's report");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("-o,--output", arguments->folder, "Folder to write to; made if it does not exist")
+      ->required()
+      ->type_name("DIR");
+  command->add_flag("--quick", arguments->quick, "200 x 200 pixels and shorter references in place of 800 x 800");
+  command
+      ->add_option("--sampler", arguments->sampler,
+                   "Sampler of the figures: independent (default, as in the report), sobol")
+      ->type_name("NAME");
+  arguments->machine.add_to(*command);
+  command->add_flag("--quiet", arguments->quiet, "Print errors only");
+  command->footer(
+      "Renders the hexagon room with 3 bounces at the settings of figures 5 to 13, each to PNG and EXR, measures\n"
+      "every figure against a converged reference, finds out how many samples one shadow ray per hit needs to be as\n"
+      "right as figure 13, and shows all of it in DIR/index.html. Takes minutes, with --quick about half a minute.\n\n"
+      "Examples:\n"
+      "  norrsken figures -o figures\n"
+      "  norrsken figures -o /tmp/quick --quick --isa avx2");
+  command->callback([&action, arguments] {
+    arguments->command = fmt::format("norrsken figures -o {}{}", arguments->folder, arguments->quick ? " --quick" : "");
+    if (arguments->sampler != "independent") arguments->command += " --sampler " + arguments->sampler;
+    if (arguments->machine.threads > 0) arguments->command += fmt::format(" --threads {}", arguments->machine.threads);
+    if (arguments->machine.isa != "auto") arguments->command += " --isa " + arguments->machine.isa;
+    if (arguments->machine.accelerator != "auto") arguments->command += " --accel " + arguments->machine.accelerator;
+    action = [arguments] { return figures(*arguments); };
+  });
+}
+
+}  // namespace norrsken::cli

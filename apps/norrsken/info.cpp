@@ -1,0 +1,100 @@
+// norrsken info: what a scene contains.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "console.h"
+#include "session.h"
+#include "text_format.h"
+
+namespace norrsken::cli {
+namespace {
+
+struct Arguments {
+  SceneArguments scene;
+  bool json = false;
+};
+
+void print_as_json(const std::string& scene, const SceneInfo& info) {
+  auto items = nlohmann::ordered_json::array();
+  for (const SceneInfo::Item& item : info.items)
+    items.push_back({{"kind", item.kind}, {"plugin", item.plugin}, {"id", item.id}, {"detail", item.detail}});
+  auto parameters = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : info.parameters) parameters[name] = value;
+  print_json({{"scene", scene},
+              {"width", info.width},
+              {"height", info.height},
+              {"samples_per_pixel", info.samples_per_pixel},
+              {"sampler", info.sampler},
+              {"integrator", info.integrator},
+              {"max_depth", info.max_depth},
+              {"rr_depth", info.rr_depth},
+              {"emitter_samples", info.emitter_samples},
+              {"triangles", info.triangles},
+              {"spheres", info.spheres},
+              {"lights", info.lights},
+              {"bounds_min", info.bounds_min},
+              {"bounds_max", info.bounds_max},
+              {"accelerator", info.accelerator},
+              {"table_bytes", info.table_bytes},
+              {"parameters", parameters},
+              {"items", items}});
+}
+
+void print_as_text(const std::string& scene, const SceneInfo& info) {
+  const auto row = [](std::string_view name, const std::string& value) {
+    print_line(fmt::format("  {:<12}{}", name, value));
+  };
+  print_line(scene);
+  row("image", fmt::format("{} x {} pixels, {} samples per pixel ({})", info.width, info.height, info.samples_per_pixel,
+                           info.sampler));
+  row("integrator", fmt::format("{}, max_depth {}{}, rr_depth {}, {} shadow ray{} per hit", info.integrator,
+                                info.max_depth, info.max_depth < 0 ? " (unbounded)" : "", info.rr_depth,
+                                info.emitter_samples, info.emitter_samples == 1 ? "" : "s"));
+  row("geometry", fmt::format("{} triangles, {} spheres, {} lights", info.triangles, info.spheres, info.lights));
+  row("bounds",
+      fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", info.bounds_min[0], info.bounds_min[1],
+                  info.bounds_min[2], info.bounds_max[0], info.bounds_max[1], info.bounds_max[2]));
+  if (!info.accelerator.empty()) row("accelerator", info.accelerator);
+  row("memory", format_bytes(info.table_bytes));
+
+  if (!info.parameters.empty()) {
+    print_line("parameters (-DNAME=VALUE)");
+    for (const auto& [name, value] : info.parameters) row(name, value);
+  }
+  if (info.items.empty()) return;
+  print_line("contents");
+  std::size_t kind = 0, plugin = 0, id = 0;
+  for (const SceneInfo::Item& item : info.items) {
+    kind = std::max(kind, item.kind.size());
+    plugin = std::max(plugin, item.plugin.size());
+    id = std::max(id, item.id.size());
+  }
+  for (const SceneInfo::Item& item : info.items) {
+    std::string line =
+        fmt::format("  {:<{}}  {:<{}}  {:<{}}  {}", item.kind, kind, item.plugin, plugin, item.id, id, item.detail);
+    line.erase(line.find_last_not_of(' ') + 1);
+    print_line(line);
+  }
+}
+
+ExitStatus tell(const Arguments& arguments) {
+  const SceneInfo info = load_scene(arguments.scene.scene, arguments.scene.load_options()).info();
+  arguments.json ? print_as_json(arguments.scene.scene, info) : print_as_text(arguments.scene.scene, info);
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("info", "Tell what a scene contains");
+  auto arguments = std::make_shared<Arguments>();
+  arguments->scene.add_to(*command);
+  command->add_flag("--json", arguments->json, "Print one JSON object");
+  command->footer("Examples:\n  norrsken info hexagon_room\n  norrsken info room.xml -Dlight=point --json");
+  command->callback([&action, arguments] { action = [arguments] { return tell(*arguments); }; });
+}
+
+}  // namespace norrsken::cli

@@ -1,0 +1,92 @@
+// norrsken: the command line of the renderer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include "commands.h"
+#include "console.h"
+
+namespace norrsken::cli {
+namespace {
+
+std::string version_text() { return fmt::format("norrsken {} ({})", NORRSKEN_VERSION, fmt::join(usable_isas(), ", ")); }
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+ExitStatus usage_error(const CLI::App& app, const std::string& message) {
+  print_error(message);
+  const auto chosen = app.get_subcommands();
+  print_note(fmt::format("see 'norrsken{} --help'", chosen.empty() ? "" : " " + chosen.front()->get_name()));
+  return ExitStatus::usage;
+}
+
+ExitStatus run(int argc, char** argv) {
+  CLI::App app("Norrsken, a Monte Carlo ray tracer for the CPU", "norrsken");
+  app.set_version_flag("--version", version_text, "Print the version and the instruction sets this processor can run");
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.require_subcommand(1);
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app.footer(
+      "Examples:\n"
+      "  norrsken render hexagon_room -o room.png --spp 64\n"
+      "  norrsken render hexagon_room -Dlight=point -Dshadow_rays=1 -o room.exr -o room.png\n"
+      "  norrsken figures -o figures --quick\n\n"
+      "'norrsken COMMAND --help' tells the options of a command.\n"
+      "Exit status: 0 done, 64 wrong command line, 65 wrong scene, 66 missing input, 70 internal fault,\n"
+      "73 cannot create output, 74 write error, 77 interrupted after saving.");
+  Action action;
+  add_render_command(app, action);
+  add_info_command(app, action);
+  add_scenes_command(app, action);
+  add_compare_command(app, action);
+  add_bench_command(app, action);
+  add_figures_command(app, action);
+
+  if (argc < 2) {
+    print_note(app.help());
+    return ExitStatus::usage;
+  }
+  const std::string first = argv[1];
+  const auto names = command_names(app);
+  if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end())
+    return usage_error(app, unknown_word("command", first, names));
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help and --version
+    app.exit(success);
+    finish_stdout();
+    return ExitStatus::done;
+  } catch (const CLI::ParseError& error) {
+    return usage_error(app, describe_usage_error(app, error));
+  }
+  const ExitStatus status = action();
+  finish_stdout();
+  return status;
+}
+
+}  // namespace
+}  // namespace norrsken::cli
+
+int main(int argc, char** argv) {
+  using namespace norrsken::cli;
+  ExitStatus status = ExitStatus::internal;
+  try {
+    status = run(argc, argv);
+  } catch (const Failure& failure) {
+    if (*failure.what() != '\0') print_error(failure.what());
+    status = failure.status();
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+  } catch (const std::exception& error) {
+    print_error(fmt::format("internal fault: {}", error.what()));
+  }
+  return static_cast<int>(status);
+}

@@ -1,0 +1,201 @@
+// norrsken render: from a scene to image files.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "console.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "session.h"
+#include "text_format.h"
+
+namespace norrsken::cli {
+namespace {
+
+struct Arguments {
+  SceneArguments scene;
+  MachineArguments machine;
+  ToneArguments tone;
+  std::vector<std::string> outputs;
+  int spp = 0;
+  std::uint64_t seed = 0;
+  bool layers = false, features = false, quiet = false, json = false;
+
+  Verbosity verbosity() const { return quiet ? Verbosity::quiet : json ? Verbosity::json : Verbosity::text; }
+};
+
+bool is_exr(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension == ".exr";
+}
+
+/// The scene's name with the extension .exr, in the current folder, as renderers do.
+std::string default_output(const std::string& scene) {
+  const std::string stem = std::filesystem::path(scene).stem().string();
+  return (stem.empty() ? "render" : stem) + ".exr";
+}
+
+/// Options that cannot have an effect on any of the files asked for.
+void warn_about_useless_options(const Arguments& arguments) {
+  const bool any_exr = std::any_of(arguments.outputs.begin(), arguments.outputs.end(), is_exr);
+  const bool all_exr = std::all_of(arguments.outputs.begin(), arguments.outputs.end(), is_exr);
+  if ((arguments.layers || arguments.features) && !any_exr)
+    print_warning("layers are only kept in EXR files: add '-o FILE.exr'");
+  if ((arguments.tone.exposure != 0 || arguments.tone.curve != "srgb") && all_exr)
+    print_warning("EXR files hold linear radiance: --exposure and --tone change PNG and JPEG files only");
+}
+
+void tell_start(const Arguments& arguments, const SceneInfo& info, int spp) {
+  if (arguments.json) {
+    print_json({{"event", "start"},
+                {"version", NORRSKEN_VERSION},
+                {"scene", arguments.scene.scene},
+                {"width", info.width},
+                {"height", info.height},
+                {"samples_per_pixel", spp},
+                {"seed", arguments.seed},
+                {"integrator", info.integrator},
+                {"max_depth", info.max_depth},
+                {"emitter_samples", info.emitter_samples},
+                {"sampler", info.sampler},
+                {"files", arguments.outputs}});
+  } else if (!arguments.quiet) {
+    print_note(fmt::format("{}: {} x {} pixels, {} samples per pixel ({}), {}, {} shadow ray{} per hit",
+                           arguments.scene.scene, info.width, info.height, spp, info.sampler, info.integrator,
+                           info.emitter_samples, info.emitter_samples == 1 ? "" : "s"));
+  }
+}
+
+/// Samples that were left out because they were not finite.
+void tell_dropped(const RenderStatistics& statistics) {
+  if (statistics.dropped_samples == 0) return;
+  std::string where;
+  for (const DroppedSample& dropped : statistics.dropped)
+    where += fmt::format("{} pixel ({}, {}) sample {}", where.empty() ? "" : ",", dropped.x, dropped.y, dropped.sample);
+  const bool more = statistics.dropped_samples > statistics.dropped.size();
+  print_warning(fmt::format("{} sample{} left out, being infinite or not a number:{}{}", statistics.dropped_samples,
+                            statistics.dropped_samples == 1 ? " was" : "s were", where, more ? ", ..." : ""));
+}
+
+void tell_done(const Arguments& arguments, const SceneInfo& info, int spp, const RenderStatistics& statistics) {
+  const double pixels = static_cast<double>(info.width) * info.height;
+  const double samples = static_cast<double>(statistics.samples);
+  const double rays = static_cast<double>(statistics.closest_rays + statistics.shadow_rays);
+  const bool saved = statistics.samples > 0;
+  if (arguments.json) {
+    auto dropped = nlohmann::ordered_json::array();
+    for (const DroppedSample& sample : statistics.dropped)
+      dropped.push_back({{"x", sample.x}, {"y", sample.y}, {"sample", sample.sample}});
+    nlohmann::ordered_json object = {{"event", "done"},
+                                     {"interrupted", statistics.cancelled},
+                                     {"seconds", statistics.seconds},
+                                     {"samples", statistics.samples},
+                                     {"samples_per_pixel", samples / pixels},
+                                     {"samples_per_second", samples / statistics.seconds},
+                                     {"closest_rays", statistics.closest_rays},
+                                     {"shadow_rays", statistics.shadow_rays},
+                                     {"rays_per_second", rays / statistics.seconds},
+                                     {"relative_error", nullptr},
+                                     {"dropped_samples", statistics.dropped_samples},
+                                     {"dropped", dropped},
+                                     {"isa", statistics.isa},
+                                     {"lanes", statistics.lanes},
+                                     {"threads", statistics.threads},
+                                     {"accelerator", statistics.accelerator},
+                                     {"files", saved ? arguments.outputs : std::vector<std::string>()}};
+    if (statistics.relative_error >= 0) object["relative_error"] = statistics.relative_error;
+    print_json(object);
+    return;
+  }
+  if (arguments.quiet) return;
+  std::string text = fmt::format("{} samples in {}, {:.1f} Msamples/s, {:.1f} Mrays/s", format_count(samples),
+                                 format_duration(statistics.seconds), samples / statistics.seconds / 1e6,
+                                 rays / statistics.seconds / 1e6);
+  if (statistics.relative_error >= 0)
+    text += fmt::format(", estimated error {}", format_percent(statistics.relative_error));
+  text += fmt::format(" ({}, {} lanes, {} thread{}, {})", statistics.isa, statistics.lanes, statistics.threads,
+                      statistics.threads == 1 ? "" : "s", statistics.accelerator);
+  print_note(text);
+  if (saved) print_note(fmt::format("wrote {}", fmt::join(arguments.outputs, ", ")));
+  if (statistics.cancelled && saved)
+    print_note(fmt::format("interrupted: the image holds {:.3g} of {} samples per pixel", samples / pixels, spp));
+  else if (statistics.cancelled)
+    print_note("interrupted before the first sample: nothing was written");
+}
+
+ExitStatus render(Arguments arguments) {
+  if (arguments.outputs.empty()) arguments.outputs = {default_output(arguments.scene.scene)};
+  for (const std::string& path : arguments.outputs) require_writable(path);
+  if (!arguments.quiet) warn_about_useless_options(arguments);
+
+  const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet);
+  const SceneInfo info = scene.info();
+  RenderOptions options;
+  arguments.machine.apply_to(options);
+  if (arguments.spp > 0) options.samples_per_pixel = arguments.spp;
+  options.seed = arguments.seed;
+  options.features = arguments.features;
+  const auto rendering = create_render(scene, options);
+  const int spp = options.samples_per_pixel.value_or(info.samples_per_pixel);
+  tell_start(arguments, info, spp);
+
+  const InterruptGuard guard(*rendering);
+  ProgressMeter meter(arguments.verbosity());
+  meter.start("");
+  const RenderStatistics statistics = rendering->run([&](const RenderProgress& progress) { meter.update(progress); });
+  meter.finish();
+
+  if (statistics.samples > 0) {
+    const Image image = rendering->image(arguments.layers || arguments.features);
+    for (const std::string& path : arguments.outputs) write_image_or_fail(path, image, arguments.tone.tone_mapping());
+  }
+  if (!arguments.quiet) tell_dropped(statistics);
+  tell_done(arguments, info, spp, statistics);
+  return statistics.cancelled ? ExitStatus::interrupted : ExitStatus::done;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("render", "Render a scene to image files");
+  auto arguments = std::make_shared<Arguments>();
+  arguments->scene.add_to(*command);
+  command
+      ->add_option("-o,--output", arguments->outputs,
+                   "Image to write: .exr (linear float), .png or .jpg (tone-mapped); may be repeated")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->type_name("FILE");
+  command->add_option("--spp", arguments->spp, "Samples per pixel in place of the scene's")
+      ->check(whole_number(1, std::numeric_limits<int>::max()))
+      ->type_name("N");
+  command->add_option("--seed", arguments->seed, "Seed of the random numbers; default 0")
+      ->check(seed_number())
+      ->type_name("S");
+  arguments->machine.add_to(*command);
+  command->add_flag("--layers", arguments->layers, "Add sample count, variance and error layers to EXR files");
+  command->add_flag("--features", arguments->features,
+                    "Add depth, normal, albedo and object id of the first hits too (implies --layers)");
+  arguments->tone.add_to(*command);
+  auto* quiet = command->add_flag("--quiet", arguments->quiet, "Print errors only");
+  command->add_flag("--json", arguments->json, "Print one JSON object a line on stdout: start, progress, done")
+      ->excludes(quiet);
+  command->footer(
+      "Without -o the image goes to the scene's name with .exr, in the current folder.\n"
+      "Ctrl-C or SIGTERM stops the rendering, writes what there is and exits with status 77; a second one stops at\n"
+      "once. The same scene, seed and options give the same image for any number of threads.\n\n"
+      "Examples:\n"
+      "  norrsken render hexagon_room                              writes hexagon_room.exr\n"
+      "  norrsken render room.xml -o room.png --spp 256 --exposure 0.5 --tone filmic\n"
+      "  norrsken render hexagon_room -Dlight=point -Dshadow_rays=1 -o a.exr -o a.png --layers\n"
+      "  norrsken render room.xml --size 1920x1080 --json");
+  command->callback([&action, arguments] { action = [arguments] { return render(*arguments); }; });
+}
+
+}  // namespace norrsken::cli

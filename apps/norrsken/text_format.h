@@ -1,0 +1,21 @@
+// Figures as people read them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace norrsken::cli {
+
+/// "0.42 s", "12.3 s", "4 min 07 s", "7 h 03 min", "2 d 04 h". Negative and unknown (not finite) times are "?".
+std::string format_duration(double seconds);
+
+/// A count with three significant digits and an SI suffix: "950", "12.3 k", "41.0 M", "43.1 G".
+std::string format_count(double count);
+
+/// A share as percent with three significant digits: 0.0123 is "1.23 %"; negative or not finite is "?".
+std::string format_percent(double share);
+
+/// Bytes with a binary suffix: "512 B", "1.5 KiB", "12 MiB".
+std::string format_bytes(std::uint64_t bytes);
+
+}  // namespace norrsken::cli
