@@ -15,6 +15,9 @@ std::string_view trim(std::string_view text);
 /// `words` with `separator` between them.
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 
+/// Whether the two differ at most in the case of ASCII letters.
+bool equal_ignoring_case(std::string_view a, std::string_view b);
+
 /// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours, each 1
 /// (Damerau 1964). Compares ASCII letters without case.
 std::size_t edit_distance(std::string_view a, std::string_view b);

@@ -11,6 +11,13 @@ TEST(Text, TrimRemovesBlanksAtBothEndsOnly) {
   EXPECT_EQ(trim(""), "");
 }
 
+TEST(Text, CaseIsIgnoredOnRequest) {
+  EXPECT_TRUE(equal_ignoring_case("TrUe", "true"));
+  EXPECT_FALSE(equal_ignoring_case("true", "tru"));
+  EXPECT_FALSE(equal_ignoring_case("tru", "true"));
+  EXPECT_FALSE(equal_ignoring_case("trux", "true"));
+}
+
 TEST(Text, EditDistanceCountsEachKindOfTypingErrorOnce) {
   EXPECT_EQ(edit_distance("diffuse", "diffuse"), 0u);
   EXPECT_EQ(edit_distance("difuse", "diffuse"), 1u);

@@ -124,6 +124,11 @@ std::string folder_of(const std::string& path) {
   return is_builtin(path) ? std::string(kBuiltin) : std::string();
 }
 
+std::string normal_path(const std::string& path) {
+  if (is_builtin(path)) return std::string(kBuiltin) + builtin_key(path);
+  return std::filesystem::path(path).lexically_normal().string();
+}
+
 std::string resolve_file(const FileSystem& files, const std::string& name, const std::string& beside,
                          const std::vector<std::string>& search_paths) {
   if (name.empty() || name.find('\0') != std::string::npos) return {};

@@ -24,6 +24,9 @@ class FileSystem {
 /// The folder part of a path with its last slash: "scenes/", "builtin:room/", "builtin:"; empty for the current one.
 std::string folder_of(const std::string& path);
 
+/// Without "." and "..", so that two spellings of one path compare equal; links are not followed.
+std::string normal_path(const std::string& path);
+
 /// `name` looked up beside `beside` (the file that names it), then in each of `search_paths`; empty if nowhere.
 std::string resolve_file(const FileSystem& files, const std::string& name, const std::string& beside,
                          const std::vector<std::string>& search_paths);

@@ -1,0 +1,131 @@
+#include "formats/mitsuba_property.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/text.h"
+#include "formats/mitsuba_values.h"
+
+namespace norrsken {
+namespace {
+
+std::optional<Property::Spectrum> read_spectrum_element(const MitsubaContext& context, const XmlDocument& document,
+                                                        const Element& element) {
+  const Literal* value = element.find("value");
+  const Literal* filename = element.find("filename");
+  if ((value == nullptr) == (filename == nullptr)) {
+    context.diagnostics.error(element.location, "<spectrum> needs either 'value' or 'filename'",
+                              "value=\"0.5\", value=\"400:0.1, 700:0.8\", filename=\"measured.spd\"");
+    return std::nullopt;
+  }
+  if (value) return read_spectrum(*value, context.diagnostics);
+  const std::string path = resolve_file(context.files, filename->text, document.source().path(), context.search_paths);
+  if (path.empty()) {
+    context.diagnostics.error(filename->location(), fmt::format("there is no file {}", filename->quote(filename->text)),
+                              context.searched_folders(document));
+    return std::nullopt;
+  }
+  std::string error;
+  const auto contents = context.files.read(path, error);
+  if (contents) return read_spectrum_file(SourceText(path, *contents), context.diagnostics);
+  context.diagnostics.error(filename->location(), fmt::format("cannot read {}: {}", quoted(path, 200), error));
+  return std::nullopt;
+}
+
+// The first step is applied first: each one multiplies from the left.
+std::optional<Property::Transform> read_transform(MitsubaContext& context, const XmlDocument& document,
+                                                  pugi::xml_node xml) {
+  Property::Transform result(1);
+  bool good = true;
+  for (const pugi::xml_node child : xml.children()) {
+    if (context.gave_up()) return std::nullopt;
+    const auto rules = transform_step_rules(child.name());
+    if (!rules) {
+      good = false;
+      const bool element = child.type() == pugi::node_element;
+      context.diagnostics.error(document.location(child),
+                                element ? fmt::format("unknown step {} in a <transform>{}", quoted(child.name()),
+                                                      did_you_mean(child.name(), transform_step_names()))
+                                        : "text in <transform>",
+                                join(transform_step_names()));
+      continue;
+    }
+    const Element step = context.open(document, child, *rules);
+    context.refuse_contents(document, child);
+    const auto matrix = step.good ? read_transform_step(step, context.diagnostics) : std::nullopt;
+    good = good && matrix;
+    if (matrix) result = *matrix * result;
+  }
+  return good ? std::optional(result) : std::nullopt;
+}
+
+// Gives the property its value; false after a complaint.
+bool fill(Property& property, MitsubaContext& context, const XmlDocument& document, pugi::xml_node xml,
+          const Element& element) {
+  const auto put = [&property](auto&& value) {
+    if (value) property.value = std::move(*value);
+    return value.has_value();
+  };
+  const std::string& type = property.type;
+  if (type == "spectrum") return put(read_spectrum_element(context, document, element));
+  if (type == "transform") return put(read_transform(context, document, xml));
+  if (type == "point" || type == "vector") {
+    const auto value = read_coordinates(element, std::nullopt, context.diagnostics);
+    if (value) property.value = Property::Vector{*value};
+    return value.has_value();
+  }
+  const Literal& value = *element.find("value");
+  if (type == "boolean") return put(read_boolean(value, context.diagnostics));
+  if (type == "integer") return put(read_integer(value, context.diagnostics));
+  if (type == "float") return put(read_float(value, context.diagnostics));
+  if (type == "rgb") return put(read_rgb(value, context.diagnostics));
+  property.value = value.text;
+  return true;
+}
+
+}  // namespace
+
+void MitsubaContext::refuse_contents(const XmlDocument& document, pugi::xml_node node) const {
+  if (const pugi::xml_node child = node.first_child())
+    diagnostics.error(document.location(child), fmt::format("<{}> has contents", node.name()),
+                      fmt::format("<{} .../>", node.name()));
+}
+
+std::string MitsubaContext::searched_folders(const XmlDocument& document) const {
+  const std::string beside = folder_of(document.source().path());
+  std::vector<std::string> folders{beside.empty() ? "the current folder" : beside};
+  folders.insert(folders.end(), search_paths.begin(), search_paths.end());
+  return "a file in " + join(folders);
+}
+
+const std::vector<std::string>& value_types() {
+  static const std::vector<std::string> types = {"boolean", "float",    "integer",   "point", "rgb",
+                                                 "string",  "spectrum", "transform", "vector"};
+  return types;
+}
+
+AttributeRules value_rules(std::string_view type) {
+  if (type == "point" || type == "vector") return {{"name"}, {"value", "x", "y", "z"}};
+  if (type == "spectrum") return {{"name"}, {"value", "filename"}};
+  if (type == "transform") return {{"name"}, {}};
+  return {{"name", "value"}, {}};
+}
+
+std::optional<Property> read_property(MitsubaContext& context, const XmlDocument& document, pugi::xml_node xml,
+                                      const Element& element) {
+  Property property;
+  property.type = element.name;
+  property.location = element.location;
+  for (const char* name : {"x", "filename", "value"}) {
+    if (const Literal* value = element.find(name)) property.location = value->location();
+  }
+  if (property.type != "transform") context.refuse_contents(document, xml);
+  if (!element.good || !fill(property, context, document, xml, element)) return std::nullopt;
+  const Literal& name = *element.find("name");
+  property.name = name.text;
+  property.name_location = name.location();
+  return property;
+}
+
+}  // namespace norrsken

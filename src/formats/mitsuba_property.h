@@ -1,0 +1,45 @@
+// The value elements of a Mitsuba scene file, <float> to <transform>, as properties of a node.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/mitsuba_element.h"
+#include "formats/mitsuba_parameters.h"
+#include "formats/xml_document.h"
+#include "scene/description.h"
+#include "scene/file_system.h"
+
+namespace norrsken {
+
+/// What reading any element needs, and changes as it goes.
+struct MitsubaContext {
+  const FileSystem& files;
+  Diagnostics& diagnostics;
+  SceneParameters parameters;
+  std::vector<std::string> search_paths;
+
+  Element open(const XmlDocument& document, pugi::xml_node node, const AttributeRules& rules) {
+    return open_element(document, node, rules, parameters, diagnostics);
+  }
+  /// Complains if there is anything inside the element.
+  void refuse_contents(const XmlDocument& document, pugi::xml_node node) const;
+  /// Where a file named in this document is looked for, for a complaint.
+  std::string searched_folders(const XmlDocument& document) const;
+  /// Whether there are so many complaints that going on is of no use.
+  bool gave_up() const { return diagnostics.error_count() >= 100; }
+};
+
+/// boolean, float, ...
+const std::vector<std::string>& value_types();
+
+/// The attributes that a value element may have.
+AttributeRules value_rules(std::string_view type);
+
+/// The property that `xml`, opened as `element`, gives. Empty after a complaint.
+std::optional<Property> read_property(MitsubaContext& context, const XmlDocument& document, pugi::xml_node xml,
+                                      const Element& element);
+
+}  // namespace norrsken

@@ -1,0 +1,42 @@
+// Values out of the text of attributes: numbers, colours, spectra, transformations.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "formats/mitsuba_element.h"
+#include "norrsken/diagnostics.h"
+#include "scene/description.h"
+
+namespace norrsken {
+
+// All are empty after a complaint.
+std::optional<bool> read_boolean(const Literal& literal, Diagnostics& diagnostics);
+std::optional<std::int64_t> read_integer(const Literal& literal, Diagnostics& diagnostics);
+std::optional<double> read_float(const Literal& literal, Diagnostics& diagnostics);
+/// Numbers apart by blanks or commas.
+std::optional<std::vector<double>> read_floats(const Literal& literal, Diagnostics& diagnostics);
+/// Three numbers, or one for all three components.
+std::optional<glm::dvec3> read_vector(const Literal& literal, Diagnostics& diagnostics);
+/// Three numbers, one, or #rrggbb, which is an 8-bit sRGB value as in HTML (not in Mitsuba 3; 0.6 had it).
+std::optional<Property::Rgb> read_rgb(const Literal& literal, Diagnostics& diagnostics);
+/// One number, or "wavelength:value, ..." with wavelengths in nm, ascending.
+std::optional<Property::Spectrum> read_spectrum(const Literal& literal, Diagnostics& diagnostics);
+/// A .spd file: a wavelength in nm and a value a line, ascending, '#' begins a comment.
+std::optional<Property::Spectrum> read_spectrum_file(const SourceText& source, Diagnostics& diagnostics);
+
+/// `value`, or `x`, `y`, `z`, of which those not given are `fallback`; without a fallback all three are required.
+std::optional<glm::dvec3> read_coordinates(const Element& element, std::optional<double> fallback,
+                                           Diagnostics& diagnostics);
+
+/// What a step of a <transform> may have: translate, scale, rotate, lookat (also look_at), matrix. Empty: no such step.
+std::optional<AttributeRules> transform_step_rules(std::string_view name);
+std::vector<std::string> transform_step_names();
+/// The matrix of one step.
+std::optional<Property::Transform> read_transform_step(const Element& step, Diagnostics& diagnostics);
+
+}  // namespace norrsken

@@ -1,0 +1,310 @@
+#include "formats/mitsuba_xml.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "base/numbers.h"
+#include "base/text.h"
+#include "formats/mitsuba_element.h"
+#include "formats/mitsuba_property.h"
+#include "formats/mitsuba_references.h"
+#include "formats/mitsuba_values.h"
+#include "formats/xml_document.h"
+
+namespace norrsken {
+namespace {
+
+constexpr int kMaxDepth = 100;                               // of elements, includes counted in
+constexpr std::size_t kMaxIncludes = 16;                     // inside each other
+constexpr int kMaxFiles = 10000;                             // included one after the other
+constexpr std::size_t kMaxXmlBytes = std::size_t{64} << 20;  // of all files, each as often as it is included
+
+const std::vector<std::string> kObjects = {"bsdf",    "emitter", "film",  "integrator", "medium",  "phase", "rfilter",
+                                           "sampler", "sensor",  "shape", "spectrum",   "texture", "volume"};
+const std::vector<std::string> kDirectives = {"alias", "default", "include", "path", "ref"};
+
+bool contains(const std::vector<std::string>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+class MitsubaReader {
+ public:
+  MitsubaReader(const FileSystem& files, const std::vector<std::pair<std::string, std::string>>& parameters,
+                Diagnostics& diagnostics)
+      : diagnostics_(diagnostics),
+        context_{files, diagnostics, SceneParameters(parameters, diagnostics), {}},
+        references_(diagnostics) {}
+
+  std::optional<Description> read(const std::string& path) {
+    auto scene = std::make_shared<Node>();
+    scene->kind = "scene";
+    // Nodes that could not be read well enough to be used, kept until references are resolved.
+    auto rejected = std::make_shared<Node>();
+    rejected_ = rejected.get();
+    Scope scope{*scene, {}};
+    read_file(path, scope, 0, {}, "the scene");
+
+    Node everything;
+    everything.children = {{{}, scene, {}}, {{}, rejected, {}}};
+    if (!references_.resolve(everything) || !complete_) return std::nullopt;
+    context_.parameters.finish();
+    return Description{std::move(scene), std::move(context_.search_paths), context_.parameters.values()};
+  }
+
+ private:
+  /// A node that is being filled, and the names that its properties and named children have so far.
+  struct Scope {
+    Node& node;
+    std::unordered_map<std::string, int> names;  ///< and their lines
+  };
+
+  bool gave_up() {
+    const bool too_many = context_.gave_up();
+    complete_ = complete_ && !too_many;
+    return too_many;
+  }
+
+  /// The scene is not known in full: whatever else would be said of it could be wrong.
+  void fail(SourceLocation location, std::string message, std::string accepted = {}) {
+    complete_ = false;
+    diagnostics_.error(std::move(location), std::move(message), std::move(accepted));
+  }
+
+  // --- files ---
+
+  void read_file(const std::string& path, Scope& into, int depth, const SourceLocation& named_at,
+                 std::string_view what) {
+    std::string error;
+    auto contents = context_.files.read(path, error);
+    if (!contents) return fail(named_at, fmt::format("cannot read {} {}: {}", what, quoted(path, 200), error));
+    xml_bytes_ += contents->size();
+    if (xml_bytes_ > kMaxXmlBytes) {
+      SourceLocation location;
+      location.file = path;
+      return fail(std::move(location), "the scene's XML is too large",
+                  fmt::format("up to {} MiB, all includes together", kMaxXmlBytes >> 20));
+    }
+    const auto document = XmlDocument::parse(path, std::move(*contents), diagnostics_);
+    if (!document) {
+      complete_ = false;
+      return;
+    }
+    open_files_.push_back(path);
+    read_root(*document, into, depth);
+    open_files_.pop_back();
+  }
+
+  void read_root(const XmlDocument& document, Scope& into, int depth) {
+    const pugi::xml_node root = document.root();
+    const bool top = depth == 0;
+    const std::string_view name = root.name();
+    if (name != "scene") {
+      if (!top && contains(kObjects, name)) return read_node(document, root, into, depth);
+      return fail(document.location(root), fmt::format("the root element is <{}>", name),
+                  top ? "<scene>" : "<scene>, or an object such as <bsdf>");
+    }
+    const AttributeRules rules = top ? AttributeRules{{"version"}, {}} : AttributeRules{{}, {"version"}};
+    const Element scene = context_.open(document, root, rules);
+    if (top) into.node.location = scene.location;
+    if (const Literal* version = scene.find("version"); version && !check_version(*version)) return;
+    read_children(document, root, into, depth);
+  }
+
+  // Mitsuba 0.x spells parameters in camelCase and means other things by many: half understood is worse than refused.
+  bool check_version(const Literal& version) {
+    constexpr const char* kAccepted = "2.0.0 or later, such as 3.0.0";
+    std::int64_t major = 0;
+    const std::string_view text = trim(version.text);
+    if (parse_integer(text.substr(0, text.find('.')), major) != NumberStatus::ok || major < 0) {
+      fail(version.location(), fmt::format("{} is not a version", version.quote(text)), kAccepted);
+      return false;
+    }
+    if (major < 2) {
+      fail(version.location(), fmt::format("the scene is for Mitsuba {}, whose format is another one", quoted(text)),
+           kAccepted);
+      return false;
+    }
+    if (major > 3)
+      diagnostics_.warning(version.location(), fmt::format("the scene is for Mitsuba {}", quoted(text)), "2.x and 3.x");
+    return true;
+  }
+
+  // --- elements ---
+
+  void read_children(const XmlDocument& document, pugi::xml_node parent, Scope& into, int depth) {
+    for (const pugi::xml_node child : parent.children()) {
+      if (gave_up()) return;
+      if (child.type() != pugi::node_element) {
+        diagnostics_.error(document.location(child), fmt::format("text in <{}>", parent.name()), "elements");
+      } else {
+        read_node(document, child, into, depth + 1);
+      }
+    }
+  }
+
+  void read_node(const XmlDocument& document, pugi::xml_node node, Scope& into, int depth) {
+    const std::string_view name = node.name();
+    if (depth > kMaxDepth)
+      return fail(document.location(node), fmt::format("elements are nested more than {} deep", kMaxDepth));
+    const bool plain_spectrum = name == "spectrum" && !node.attribute("type");
+    if (contains(kObjects, name) && !plain_spectrum) return read_object(document, node, into, depth);
+    if (contains(value_types(), name)) return read_value(document, node, into);
+    if (name == "ref") return read_ref(document, node, into);
+    if (name == "include") return read_include(document, node, into, depth);
+    if (name == "default") return read_default(document, node);
+    if (name == "path") return read_path(document, node, into);
+    if (name == "alias") return read_alias(document, node);
+
+    std::vector<std::string> known = kObjects;
+    known.insert(known.end(), value_types().begin(), value_types().end());
+    known.insert(known.end(), kDirectives.begin(), kDirectives.end());
+    std::sort(known.begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    std::string message = fmt::format("unknown element {}{}", quoted(name), did_you_mean(name, known));
+    if (name == "scene") message = "<scene> inside of another element";
+    if (name == "animation") message = "<animation> is not supported";
+    if (transform_step_rules(name)) message = fmt::format("<{}> outside of a <transform>", name);
+    diagnostics_.error(document.location(node), std::move(message), join(known));
+  }
+
+  // Whether `name` is still free in the node; empty names always are.
+  bool claim(Scope& scope, const std::string& name, const SourceLocation& location) {
+    if (name.empty()) return true;
+    const auto [place, is_new] = scope.names.emplace(name, location.line);
+    if (!is_new)
+      diagnostics_.error(location, fmt::format("{} is already given in line {}", quoted(name), place->second),
+                         "each name once");
+    return is_new;
+  }
+
+  void read_object(const XmlDocument& document, pugi::xml_node xml, Scope& into, int depth) {
+    const Element element = context_.open(document, xml, {{"type"}, {"id", "name"}});
+    auto node = std::make_shared<Node>();
+    node->kind = element.name;
+    node->plugin = element.text("type");
+    node->id = element.text("id");
+    node->name = element.text("name");
+    node->location = element.location;
+    node->plugin_location = node->location;
+    if (const Literal* type = element.find("type")) node->plugin_location = type->location();
+
+    if (const Literal* id = element.find("id")) references_.name(node->id, node, id->location());
+    const Literal* name = element.find("name");
+    const bool is_free = !name || claim(into, node->name, name->location());
+    Node& parent = element.good && is_free ? into.node : *rejected_;
+    if (!element.good && name) into.node.unreadable.push_back(node->name);
+    parent.children.push_back({node->name, node, node->location});
+    Scope scope{*node, {}};
+    read_children(document, xml, scope, depth);
+  }
+
+  void read_ref(const XmlDocument& document, pugi::xml_node xml, Scope& into) {
+    const Element element = context_.open(document, xml, {{"id"}, {"name"}});
+    context_.refuse_contents(document, xml);
+    if (!element.good) return;
+    const Literal* name = element.find("name");
+    if (name && !claim(into, name->text, name->location())) return;
+    references_.refer(into.node, element.text("id"), element.text("name"), element.find("id")->location());
+  }
+
+  void read_alias(const XmlDocument& document, pugi::xml_node xml) {
+    const Element element = context_.open(document, xml, {{"id", "as"}, {}});
+    context_.refuse_contents(document, xml);
+    if (!element.good) return;
+    references_.alias(element.text("id"), element.text("as"), element.find("id")->location(),
+                      element.find("as")->location());
+  }
+
+  void read_default(const XmlDocument& document, pugi::xml_node xml) {
+    const Element element = context_.open(document, xml, {{"name", "value"}, {}});
+    context_.refuse_contents(document, xml);
+    if (!element.find("name")) return;
+    const Literal& name = *element.find("name");
+    if (SceneParameters::is_name(name.text)) {
+      // Also after a complaint about the value: the name is known, its uses are not to blame.
+      context_.parameters.define(name.text, element.text("value"));
+    } else {
+      diagnostics_.error(name.location(), fmt::format("{} cannot be the name of a parameter", name.quote(name.text)),
+                         "letters, digits and _");
+    }
+  }
+
+  void read_path(const XmlDocument& document, pugi::xml_node xml, Scope& into) {
+    const Element element = context_.open(document, xml, {{"value"}, {}});
+    context_.refuse_contents(document, xml);
+    if (!element.good) return;
+    const Literal& value = *element.find("value");
+    if (into.node.kind != "scene") {
+      diagnostics_.error(element.location, fmt::format("<path> in a <{}>", into.node.kind), "<path> in <scene>");
+      return;
+    }
+    const std::string folder =
+        resolve_file(context_.files, value.text, document.source().path(), context_.search_paths);
+    if (folder.empty()) {
+      diagnostics_.error(value.location(), fmt::format("there is no folder {}", value.quote(value.text)),
+                         "an existing folder, relative to this file");
+    } else {
+      context_.search_paths.push_back(folder);
+    }
+  }
+
+  void read_include(const XmlDocument& document, pugi::xml_node xml, Scope& into, int depth) {
+    const Element element = context_.open(document, xml, {{"filename"}, {}});
+    context_.refuse_contents(document, xml);
+    if (!element.good) {
+      complete_ = false;
+      return;
+    }
+    const Literal& filename = *element.find("filename");
+    const std::string path =
+        resolve_file(context_.files, filename.text, document.source().path(), context_.search_paths);
+    if (path.empty())
+      return fail(filename.location(), fmt::format("there is no file {}", filename.quote(filename.text)),
+                  context_.searched_folders(document));
+    const std::string key = normal_path(path);
+    const auto is_same = [&key](const std::string& open) { return normal_path(open) == key; };
+    if (const auto open = std::find_if(open_files_.begin(), open_files_.end(), is_same); open != open_files_.end()) {
+      std::vector<std::string> chain(open, open_files_.end());
+      chain.push_back(*open);
+      return fail(filename.location(), "the file includes itself: " + join(chain, " -> "), "a file that does not");
+    }
+    if (open_files_.size() > kMaxIncludes || ++file_count_ > kMaxFiles)
+      return fail(filename.location(), "too many includes",
+                  fmt::format("up to {} inside each other, {} in all", kMaxIncludes, kMaxFiles));
+    read_file(path, into, depth, filename.location(), "the included file");
+  }
+
+  void read_value(const XmlDocument& document, pugi::xml_node xml, Scope& into) {
+    const Element element = context_.open(document, xml, value_rules(xml.name()));
+    const Literal* name = element.find("name");
+    if (name && !claim(into, name->text, name->location())) return;
+    auto property = read_property(context_, document, xml, element);
+    if (property) {
+      into.node.properties.push_back(std::move(*property));
+    } else if (name) {
+      into.node.unreadable.push_back(name->text);
+    }
+  }
+
+  Diagnostics& diagnostics_;
+  MitsubaContext context_;
+  References references_;
+  std::vector<std::string> open_files_;  ///< the file being read and those that include it, outermost first
+  std::size_t xml_bytes_ = 0;
+  int file_count_ = 0;
+  Node* rejected_ = nullptr;
+  bool complete_ = true;
+};
+
+}  // namespace
+
+std::optional<Description> read_mitsuba_xml(const std::string& path, const FileSystem& files,
+                                            const std::vector<std::pair<std::string, std::string>>& parameters,
+                                            Diagnostics& diagnostics) {
+  return MitsubaReader(files, parameters, diagnostics).read(path);
+}
+
+}  // namespace norrsken
