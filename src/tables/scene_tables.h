@@ -20,18 +20,21 @@ enum class BsdfKind : std::uint8_t {
   count
 };
 
-/// A BSDF in one word: its kind in the top 8 bits, the offset of its first float in `bsdf_parameters` in the rest.
+/// A BSDF in one word: bit 31 says that the surface also emits on this side, bits 24 to 30 hold the kind, the rest the
+/// offset of its first float in `bsdf_parameters`.
 using MaterialWord = std::uint32_t;
+inline constexpr MaterialWord kEmitsBit = 0x80000000u;
+inline constexpr MaterialWord kMaterialKindMask = 0x7f000000u;
+inline constexpr MaterialWord kMaterialOffsetMask = 0x00ffffffu;
 constexpr MaterialWord make_material(BsdfKind kind, std::uint32_t offset) {
   return (static_cast<std::uint32_t>(kind) << 24) | offset;
 }
-constexpr BsdfKind material_kind(MaterialWord word) { return static_cast<BsdfKind>(word >> 24); }
-inline constexpr std::uint32_t kMaterialOffsetMask = 0x00ffffffu;
+constexpr BsdfKind material_kind(MaterialWord word) { return static_cast<BsdfKind>((word & kMaterialKindMask) >> 24); }
 
 /// One per primitive, in order: all triangles, then all spheres. 32 bytes, gathered field by field.
 struct SurfaceRecord {
   float geometry[4];            ///< triangle: unit geometric normal n and n.p; sphere: centre and radius
-  MaterialWord material_front;  ///< for rays that come from the side the normal points to
+  MaterialWord material_front;  ///< for rays that come from the side the normal points to; with kEmitsBit on lights
   MaterialWord material_back;
   std::uint32_t light;          ///< index into `lights` of the light this is part of, or kNone
   std::uint32_t shape;          ///< index into `shapes`
@@ -45,7 +48,12 @@ struct ShapeRecord {
 };
 
 /// What next-event estimation chooses among. An area light is one record per triangle, parallelogram or sphere.
-enum class LightKind : std::uint32_t { triangle, parallelogram, sphere, point, count };
+enum class LightKind : std::uint32_t {
+#define NORRSKEN_LIGHT(kind, Model, is_delta) kind,
+#include "light/list.def"
+#undef NORRSKEN_LIGHT
+  count
+};
 
 /// 20 floats: gathered when there are several lights, broadcast when there is one.
 struct LightRecord {

@@ -1,0 +1,62 @@
+// Acceleration structures from the scene's tables, on the host.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "tables/accel_tables.h"
+#include "tables/scene_tables.h"
+
+namespace norrsken {
+
+/// What the planes and spheres of a small scene are held in. Polygons of every set are in their own planes.
+struct PlaneTables {
+  std::vector<PlaneRecord> planes;
+  std::vector<PolygonRecord> polygons;
+  std::vector<PolygonRow> rows;
+  PlaneSet all, occluders, emitters;
+};
+
+/// Merges coplanar triangles into convex polygons and sorts them into planes.
+PlaneTables build_planes(const SceneTables& scene);
+
+/// The spheres, those of lights first.
+std::vector<SphereRecord> build_spheres(const SceneTables& scene, std::uint32_t& emitter_count);
+
+/// An Embree scene: geometry 0 the triangles, geometry 1 the spheres (user geometry).
+class EmbreeScene {
+ public:
+  explicit EmbreeScene(const SceneTables& scene, const std::vector<SphereRecord>& spheres);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  void* scene() const { return scene_; }  ///< RTCScene
+
+ private:
+  void* device_ = nullptr;
+  void* scene_ = nullptr;
+};
+
+/// Up to this many primitives the planes win against Embree; measured by `benchmarks/intersect`, see
+/// docs/performance.md.
+inline constexpr std::uint32_t kPlanesUpTo = 128;
+
+/// Beyond this many the planes are refused even if asked for: merging is quadratic.
+inline constexpr std::uint32_t kPlanesAtMost = 4096;
+
+/// One of the three, with all that its view borrows.
+class Accel {
+ public:
+  Accel(const SceneTables& scene, AccelKind kind);
+  const AccelView& view() const { return view_; }
+
+ private:
+  PlaneTables planes_;
+  std::vector<SphereRecord> spheres_;
+  std::unique_ptr<EmbreeScene> embree_;
+  AccelView view_;
+};
+
+}  // namespace norrsken

@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+
+#include "accel/build.h"
+#include "accel/polygons.h"
+
+namespace norrsken {
+namespace {
+
+int dominant_axis(const glm::dvec3& n) {
+  const glm::dvec3 a = glm::abs(n);
+  return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+}
+
+struct Point2 {
+  double u, v;
+};
+
+/// Builds the planes of one set of polygons at the end of the tables.
+class PlaneSetBuilder {
+ public:
+  PlaneSetBuilder(PlaneTables& tables, double scale) : tables_(tables), scale_(scale) {}
+
+  PlaneSet build(const std::vector<const ConvexPolygon*>& polygons) {
+    PlaneSet set;
+    for (int axis = 0; axis < 3; ++axis) {
+      set.axis_begin[axis] = static_cast<std::uint32_t>(tables_.planes.size());
+      std::vector<const ConvexPolygon*> rest;
+      for (const ConvexPolygon* p : polygons) {
+        if (dominant_axis(p->normal) == axis) rest.push_back(p);
+      }
+      while (!rest.empty()) {
+        const ConvexPolygon* first = rest.front();
+        const auto others = std::stable_partition(rest.begin(), rest.end(), [&](const ConvexPolygon* p) {
+          return glm::dot(p->normal, first->normal) > 1 - kCoplanar * kCoplanar &&
+                 std::abs(p->offset - first->offset) <= kCoplanar * scale_;
+        });
+        add_plane(axis, {rest.begin(), others});
+        rest.erase(rest.begin(), others);
+      }
+    }
+    set.axis_begin[3] = static_cast<std::uint32_t>(tables_.planes.size());
+    return set;
+  }
+
+ private:
+  void add_plane(int axis, const std::vector<const ConvexPolygon*>& polygons) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const glm::dvec3 n = polygons.front()->normal;
+    PlaneRecord plane;
+    plane.nu = static_cast<float>(n[u] / n[axis]);
+    plane.nv = static_cast<float>(n[v] / n[axis]);
+    plane.c = static_cast<float>(polygons.front()->offset / n[axis]);
+    plane.back_flip = n[axis] > 0 ? 0x80000000u : 0u;
+    plane.first_polygon = static_cast<std::uint32_t>(tables_.polygons.size());
+    plane.polygon_count = static_cast<std::uint32_t>(polygons.size());
+    tables_.planes.push_back(plane);
+    for (const ConvexPolygon* polygon : polygons) {
+      std::vector<Point2> corners;
+      for (const glm::dvec3& c : polygon->corners) corners.push_back({c[u], c[v]});
+      add_polygon(corners, polygon->primitive);
+    }
+  }
+
+  void add_polygon(const std::vector<Point2>& corners, std::uint32_t primitive) {
+    PolygonRecord record;
+    record.primitive = primitive;
+    record.first_row = static_cast<std::uint32_t>(tables_.rows.size());
+    record.kind = is_parallelogram(corners) ? PolygonKind::parallelogram : PolygonKind::convex;
+    if (record.kind == PolygonKind::parallelogram) {
+      // 2 s - 1 and 2 t - 1 of the coordinates (s, t) along the two edges.
+      add_row(corners, edge_function(corners[0], corners[1]), 2, -1);
+      add_row(corners, edge_function(corners[0], corners[3]), 2, -1);
+    } else {
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        add_row(corners, edge_function(corners[i], corners[(i + 1) % corners.size()]), 1, 0);
+      }
+    }
+    record.row_count = static_cast<std::uint32_t>(tables_.rows.size()) - record.first_row;
+    tables_.polygons.push_back(record);
+  }
+
+  bool is_parallelogram(const std::vector<Point2>& c) const {
+    if (c.size() != 4) return false;
+    const double du = c[0].u - c[1].u + c[2].u - c[3].u, dv = c[0].v - c[1].v + c[2].v - c[3].v;
+    return std::abs(du) <= kCoplanar * scale_ && std::abs(dv) <= kCoplanar * scale_;
+  }
+
+  struct Line {
+    double u, v, w;
+    double at(const Point2& p) const { return u * p.u + v * p.v + w; }
+  };
+
+  /// Zero on the line through both points.
+  static Line edge_function(const Point2& a, const Point2& b) {
+    Line e{a.v - b.v, b.u - a.u, 0};
+    e.w = -(e.u * a.u + e.v * a.v);
+    return e;
+  }
+
+  /// The line scaled to [0, 1] over the polygon, then to scale * line + shift, and widened by what rounding may do.
+  void add_row(const std::vector<Point2>& corners, Line e, double scale, double shift) {
+    double extreme = 0, magnitude = 0;
+    for (const Point2& c : corners) {
+      if (std::abs(e.at(c)) > std::abs(extreme)) extreme = e.at(c);
+    }
+    e = {e.u / extreme, e.v / extreme, e.w / extreme};
+    for (const Point2& c : corners) {
+      magnitude = std::max(magnitude, std::abs(e.u * c.u) + std::abs(e.v * c.v) + std::abs(e.w));
+    }
+    const double slack = 8 * 0x1p-24 * scale * magnitude;
+    Line row{e.u * scale, e.v * scale, e.w * scale + shift};
+    if (shift != 0) {
+      row = {row.u / (1 + slack), row.v / (1 + slack), row.w / (1 + slack)};
+    } else {
+      row.w += slack;
+    }
+    tables_.rows.push_back({static_cast<float>(row.u), static_cast<float>(row.v), static_cast<float>(row.w)});
+  }
+
+  PlaneTables& tables_;
+  double scale_;
+};
+
+/// Whether everything (triangles, spheres, lights) is on one side of the polygon's plane: then the plane cannot come
+/// between two points of the scene.
+bool bounds_the_scene(const SceneTables& scene, const ConvexPolygon& polygon, double scale) {
+  double lowest = 0, highest = 0;
+  const auto extend = [&](const float* p, double radius) {
+    const double d = glm::dot(polygon.normal, glm::dvec3(p[0], p[1], p[2])) - polygon.offset;
+    lowest = std::min(lowest, d - radius);
+    highest = std::max(highest, d + radius);
+  };
+  for (const std::uint32_t vertex : scene.triangle_vertices) extend(scene.positions.data() + std::size_t{3} * vertex, 0);
+  for (std::size_t i = scene.triangle_count(); i < scene.surfaces.size(); ++i) {
+    extend(scene.surfaces[i].geometry, static_cast<double>(scene.surfaces[i].geometry[3]));
+  }
+  for (const LightRecord& light : scene.lights) {
+    if (light.kind == LightKind::point) extend(light.origin, 0);
+  }
+  const double tolerance = kCoplanar * scale;
+  return lowest >= -tolerance || highest <= tolerance;
+}
+
+}  // namespace
+
+PlaneTables build_planes(const SceneTables& scene) {
+  const std::vector<ConvexPolygon> polygons = merge_triangles(scene);
+  const double scale = scene_scale(scene);
+  PlaneTables tables;
+  PlaneSetBuilder builder(tables, scale);
+  const auto build_set = [&](const std::function<bool(const ConvexPolygon&)>& wanted) {
+    std::vector<const ConvexPolygon*> chosen;
+    for (const ConvexPolygon& p : polygons) {
+      if (wanted(p)) chosen.push_back(&p);
+    }
+    return builder.build(chosen);
+  };
+  tables.all = build_set([](const ConvexPolygon&) { return true; });
+  tables.occluders = build_set([&](const ConvexPolygon& p) { return !bounds_the_scene(scene, p, scale); });
+  tables.emitters = build_set([&](const ConvexPolygon& p) { return scene.surfaces[p.primitive].light != kNone; });
+  return tables;
+}
+
+std::vector<SphereRecord> build_spheres(const SceneTables& scene, std::uint32_t& emitter_count) {
+  std::vector<SphereRecord> spheres;
+  for (std::uint32_t i = scene.triangle_count(); i < scene.surfaces.size(); ++i) {
+    const SurfaceRecord& s = scene.surfaces[i];
+    spheres.push_back({{s.geometry[0], s.geometry[1], s.geometry[2]},
+                       s.geometry[3],
+                       i,
+                       scene.shapes[s.shape].flip_normals != 0 ? 0x80000000u : 0u});
+  }
+  const auto others = std::stable_partition(spheres.begin(), spheres.end(), [&](const SphereRecord& s) {
+    return scene.surfaces[s.primitive].light != kNone;
+  });
+  emitter_count = static_cast<std::uint32_t>(others - spheres.begin());
+  return spheres;
+}
+
+}  // namespace norrsken

@@ -1,0 +1,30 @@
+// Merging coplanar triangles into convex polygons.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "tables/scene_tables.h"
+
+namespace norrsken {
+
+/// A convex polygon with its corners in order, counter-clockwise seen from the front.
+struct ConvexPolygon {
+  std::vector<glm::dvec3> corners;
+  glm::dvec3 normal;             ///< unit
+  double offset = 0;             ///< normal . p
+  std::uint32_t primitive = 0;   ///< the first triangle that it is made of
+};
+
+/// The scene's triangles, merged where the result is convex and the surface is one (same shape, material and light,
+/// flat shading).
+std::vector<ConvexPolygon> merge_triangles(const SceneTables& scene);
+
+/// Length scale of the scene: the largest absolute coordinate of its bounds, at least the smallest positive double.
+double scene_scale(const SceneTables& scene);
+
+/// Relative tolerance within which points count as coplanar or corners as one line.
+inline constexpr double kCoplanar = 1e-6;
+
+}  // namespace norrsken

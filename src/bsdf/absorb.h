@@ -1,0 +1,18 @@
+// Model       No scattering: everything that arrives is absorbed. Lights of reflectance 0, backs of one-sided surfaces.
+// Parameters  none
+// Measure     none
+// Source      -
+// Departures  only the feature layers ever shade it; light transport ends here before
+#pragma once
+
+#include "bsdf/bsdf.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+struct Absorb {
+  struct Parameters {};
+  static NORRSKEN_INLINE Parameters load(const float*, UInt, Mask) { return {}; }
+  static NORRSKEN_INLINE Vec3f albedo(const Parameters&) { return {Float(0.0f), Float(0.0f), Float(0.0f)}; }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

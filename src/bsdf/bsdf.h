@@ -1,0 +1,25 @@
+// What every scattering model gives to the shading stage. Directions are local, z is the shading normal on the side
+// that the ray came from; `wo` points back along the ray, `wi` to where light comes from; both unit.
+//
+// A model is a struct with
+//   static constexpr bool kDelta;              all of it is delta functions: nothing to evaluate
+//   struct Parameters;                         its parameters in lanes
+//   static Parameters load(const float* parameters, UInt offset, Mask active);
+//   static Vec3f evaluate(const Parameters&, wo, wi);                f times |cos(wi)|
+//   static Float pdf_sa(const Parameters&, wo, wi);
+//   static BsdfSample sample(const Parameters&, wo, Float lobe, Vec2f direction);
+//   static Vec3f albedo(const Parameters&);    for the feature layer
+#pragma once
+
+#include "math/warp.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+struct BsdfSample {
+  Vec3f wi;
+  Vec3f weight;   ///< f |cos| / pdf_sa; for a delta direction its share of the light
+  Float pdf_sa;   ///< 0 for a delta direction
+  Mask valid;     ///< false: nothing scatters here, the path ends
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

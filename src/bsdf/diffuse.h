@@ -1,0 +1,40 @@
+// Model       Lambertian reflection: the same radiance in every direction of the upper hemisphere.
+// Parameters  reflectance (linear sRGB, 0 to 1, default 0.5)
+// Measure     pdf_sa, cosine-weighted
+// Source      Lambert, "Photometria", 1760
+// Departures  none
+#pragma once
+
+#include "bsdf/bsdf.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+struct Diffuse {
+  static constexpr bool kDelta = false;
+
+  struct Parameters {
+    Vec3f reflectance;
+  };
+
+  static NORRSKEN_INLINE Parameters load(const float* parameters, UInt offset, Mask active) {
+    return {gather3(parameters, offset, active)};
+  }
+
+  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
+    const Float cos_i = max(wi.z, Float(0.0f));
+    return p.reflectance * zero_unless(wo.z > Float(0.0f), cos_i * Float(kInvPi));
+  }
+
+  static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f& wo, const Vec3f& wi) {
+    return zero_unless(wo.z > Float(0.0f), cosine_hemisphere_pdf_sa(wi.z));
+  }
+
+  static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float, Vec2f direction) {
+    const Vec3f wi = warp_to_cosine_hemisphere(direction);
+    return {wi, p.reflectance, cosine_hemisphere_pdf_sa(wi.z), (wo.z > Float(0.0f)) & (wi.z > Float(0.0f))};
+  }
+
+  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.reflectance; }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

@@ -1,0 +1,58 @@
+// The film on the host: the memory of the sums, and what they say about the image and its error.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "norrsken/image.h"
+#include "tables/film_view.h"
+#include "tables/scene_tables.h"
+
+namespace norrsken {
+
+/// A rectangle of pixels.
+struct FilmRegion {
+  std::uint32_t x0 = 0, y0 = 0, width = 0, height = 0;
+};
+
+/// Mean and variance of the mean of one pixel's channel.
+struct PixelEstimate {
+  double mean = 0;
+  double variance = 0;          ///< of the mean; meaningful if `known`
+  bool known = false;           ///< false while there are fewer than two independent estimates
+};
+
+/// Totals over pixels and channels, for the error of the whole image.
+struct FilmError {
+  double mean_sum = 0, variance_sum = 0;
+  std::uint64_t channels = 0;   ///< pixel channels whose variance is known
+
+  void operator+=(const FilmError& other);
+  /// sqrt(mean variance) / mean; -1 if nothing is known yet.
+  double relative() const;
+};
+
+/// Memory does not depend on the number of samples.
+class Film {
+ public:
+  Film(const FilmSettings& settings, SamplerKind sampler, bool features);
+
+  std::uint32_t width() const { return width_; }
+  std::uint32_t height() const { return height_; }
+  FilmView view();
+
+  PixelEstimate estimate(std::uint64_t pixel, int channel) const;
+  FilmError error(const FilmRegion& region) const;
+
+  /// R, G, B; with `layers` also samples, variance.*, error.*, and the features divided by `feature_samples` if any.
+  Image image(bool layers, std::uint32_t feature_samples) const;
+
+ private:
+  std::uint32_t width_, height_;
+  SamplerKind sampler_;
+  std::vector<double> sums_;
+  std::vector<std::uint32_t> counts_;
+  std::vector<float> features_;
+};
+
+}  // namespace norrsken

@@ -1,0 +1,62 @@
+// Choosing a light, and what every kind of light gives to next-event estimation.
+//
+// A kind is a struct with
+//   static LightSample sample(const Light&, const Vec3f& reference, Vec2f u);
+//   static Float pdf_sa(const Light&, const Vec3f& reference, const Vec3f& direction, Float distance);
+#pragma once
+
+#include "math/frame.h"
+#include "math/warp.h"
+#include "tables/wave_types.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// A LightRecord in lanes, field by field.
+struct Light {
+  Float area;
+  Vec3f origin, edge1, edge2, normal, emission;
+};
+
+/// A point on a light, seen from a reference point. `pdf_sa` does not count the choice of the light.
+struct LightSample {
+  Vec3f point;      ///< on the light, moved off it towards the reference point by the rounding bound
+  Float pdf_sa;     ///< 1 for a delta light, whose `radiance` has the falloff in it
+  Vec3f radiance;
+  Mask valid;       ///< false: this side does not emit
+};
+
+inline constexpr std::uint32_t kLightFloats = sizeof(LightRecord) / sizeof(float);
+enum LightField : std::uint32_t {
+  kLightKind, kLightProb, kLightArea, kLightAliasProb, kLightAlias, kLightOrigin, kLightEdge1 = 8, kLightEdge2 = 11,
+  kLightNormal = 14, kLightEmission = 17
+};
+static_assert(kLightFloats == 20);
+
+NORRSKEN_INLINE Light broadcast_light(const LightRecord& r) {
+  return {Float(r.area), broadcast(r.origin), broadcast(r.edge1), broadcast(r.edge2), broadcast(r.normal),
+          broadcast(r.emission)};
+}
+NORRSKEN_INLINE Light gather_light(const LightRecord* records, UInt index, Mask active) {
+  const auto* base = reinterpret_cast<const float*>(records);
+  const UInt first = index * UInt(kLightFloats);
+  return {gather(base + kLightArea, first, active),    gather3(base + kLightOrigin, first, active),
+          gather3(base + kLightEdge1, first, active),  gather3(base + kLightEdge2, first, active),
+          gather3(base + kLightNormal, first, active), gather3(base + kLightEmission, first, active)};
+}
+
+/// Alias method (Walker 1977, Vose 1991): one uniform number picks a column and then one of its two lights.
+NORRSKEN_INLINE UInt pick_light(const SceneView& scene, Float u, Mask active) {
+  const Float scaled = u * Float(static_cast<float>(scene.light_count));
+  const UInt column = to_uint(min(scaled, Float(static_cast<float>(scene.light_count - 1))));
+  const auto* base = reinterpret_cast<const float*>(scene.lights);
+  const UInt first = column * UInt(kLightFloats);
+  const Mask keep = scaled - to_float(column) < gather(base + kLightAliasProb, first, active);
+  return select(keep, column, gather_uint(base + kLightAlias, first, active));
+}
+
+NORRSKEN_INLINE Float light_prob(const SceneView& scene, UInt light, Mask active) {
+  const auto* base = reinterpret_cast<const float*>(scene.lights);
+  return gather(base + kLightProb, light * UInt(kLightFloats), active);
+}
+
+}  // namespace norrsken::NORRSKEN_ISA

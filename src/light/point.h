@@ -1,0 +1,23 @@
+// Model       A point that sends the same radiant intensity in all directions.
+// Parameters  position (scene units), intensity (linear sRGB, W / sr)
+// Measure     delta
+// Source      inverse square law, Kepler 1604
+// Departures  none
+#pragma once
+
+#include "light/light.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+struct PointLight {
+  static NORRSKEN_INLINE LightSample sample(const Light& light, const Vec3f& reference, Vec2f) {
+    const Vec3f to_light = light.origin - reference;
+    const Float falloff = Float(1.0f) / dot(to_light, to_light);
+    return {light.origin, Float(1.0f), light.emission * falloff, falloff < Float(__builtin_inff())};
+  }
+
+  /// A direction found by other means never meets a point.
+  static NORRSKEN_INLINE Float pdf_sa(const Light&, const Vec3f&, const Vec3f&, Float) { return Float(0.0f); }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

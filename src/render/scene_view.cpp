@@ -1,0 +1,70 @@
+#include "render/scene_view.h"
+
+#include <algorithm>
+
+namespace norrsken {
+namespace {
+
+/// Without a depth limit, Russian roulette must come some time: paths in a closed white room would never end.
+constexpr int kLatestRoulette = 4096;
+
+constexpr struct {
+  const char* name;
+  AccelKind kind;
+} kAccels[] = {{"planes", AccelKind::planes},
+               {"moller_trumbore", AccelKind::moller_trumbore},
+               {"embree", AccelKind::embree}};
+
+}  // namespace
+
+AccelKind choose_accel(const std::string& name, const SceneTables& tables, Diagnostics& diagnostics) {
+  const std::size_t primitives = tables.surfaces.size();
+  const AccelKind automatic = primitives <= kPlanesUpTo ? AccelKind::planes : AccelKind::embree;
+  if (name == "auto") return automatic;
+  for (const auto& accel : kAccels) {
+    if (name != accel.name) continue;
+    if (accel.kind == AccelKind::planes && primitives > kPlanesAtMost) {
+      diagnostics.error({}, "accelerator 'planes' is for small scenes, and this one has " +
+                                std::to_string(primitives) + " primitives",
+                        "at most " + std::to_string(kPlanesAtMost) + " primitives, or embree");
+    }
+    return accel.kind;
+  }
+  diagnostics.error({}, "unknown accelerator '" + name + "'", "auto, embree, moller_trumbore, planes");
+  return automatic;
+}
+
+const char* accel_name(AccelKind kind) {
+  const auto* it = std::find_if(std::begin(kAccels), std::end(kAccels), [&](const auto& a) { return a.kind == kind; });
+  return it->name;
+}
+
+SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
+  SceneView view;
+  view.positions = tables.positions.data();
+  view.normals = tables.normals.empty() ? nullptr : tables.normals.data();
+  view.triangle_vertices = tables.triangle_vertices.data();
+  view.surfaces = tables.surfaces.data();
+  view.shapes = tables.shapes.data();
+  view.bsdf_parameters = tables.bsdf_parameters.data();
+  view.lights = tables.lights.data();
+  view.triangle_count = tables.triangle_count();
+  view.sphere_count = tables.sphere_count();
+  view.light_count = static_cast<std::uint32_t>(tables.lights.size());
+  for (const SurfaceRecord& s : tables.surfaces) {
+    view.bsdf_kinds |= 1u << static_cast<std::uint32_t>(material_kind(s.material_front));
+    view.bsdf_kinds |= 1u << static_cast<std::uint32_t>(material_kind(s.material_back));
+    view.any_area_light = view.any_area_light || s.light != kNone;
+  }
+  for (const LightRecord& light : tables.lights) view.light_kinds |= 1u << static_cast<std::uint32_t>(light.kind);
+  view.any_smooth = std::any_of(tables.shapes.begin(), tables.shapes.end(), [](const ShapeRecord& s) { return s.smooth != 0; });
+  view.camera = tables.camera;
+  view.film = tables.film;
+  view.sampler = tables.sampler;
+  view.integrator = tables.integrator;
+  if (view.integrator.max_depth < 0) view.integrator.rr_depth = std::min(view.integrator.rr_depth, kLatestRoulette);
+  view.accel = accel;
+  return view;
+}
+
+}  // namespace norrsken

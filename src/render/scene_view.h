@@ -1,0 +1,22 @@
+// The scene made ready for kernels: tables, acceleration structure and settings in one view.
+#pragma once
+
+#include <string>
+
+#include "accel/build.h"
+#include "compile/compile.h"
+#include "norrsken/diagnostics.h"
+#include "norrsken/render.h"
+#include "tables/wave_types.h"
+
+namespace norrsken {
+
+/// The accelerator by name ("auto", "planes", "moller_trumbore", "embree"); "auto" goes by the number of primitives.
+/// Complains about unknown names and about planes for a large scene, and falls back to auto's choice.
+AccelKind choose_accel(const std::string& name, const SceneTables& tables, Diagnostics& diagnostics);
+const char* accel_name(AccelKind kind);
+
+/// Borrows from both arguments, which must outlive it.
+SceneView make_scene_view(const SceneTables& tables, const AccelView& accel);
+
+}  // namespace norrsken

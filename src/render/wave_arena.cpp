@@ -1,0 +1,35 @@
+#include "render/wave_arena.h"
+
+#include <cstdlib>
+#include <new>
+
+namespace norrsken {
+
+void WaveArena::Free::operator()(float* p) const { std::free(p); }
+
+WaveArena::WaveArena(std::uint32_t slots) {
+  const std::uint32_t capacity = (slots + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
+  // Compressed stores may write a full register past the end. One more cache line keeps fields from falling into the
+  // same cache sets.
+  const std::uint32_t stride = capacity + 2 * kMaxLanes;
+  const auto for_each_queue = [&](const auto& visit) {
+    visit(memory_.slots, kSlotFieldCount);
+    visit(memory_.rays, kRayFieldCount);
+    visit(memory_.next_rays, kRayFieldCount);
+    for (Queue& q : memory_.hits) visit(q, kHitFieldCount);
+    visit(memory_.light_hits, kHitFieldCount);
+    visit(memory_.shadow_rays, kShadowFieldCount);
+  };
+  std::size_t values = 0;
+  for_each_queue([&](Queue&, std::uint32_t fields) { values += std::size_t{fields} * stride; });
+  block_.reset(static_cast<float*>(std::aligned_alloc(64, values * sizeof(float))));
+  if (block_ == nullptr) throw std::bad_alloc();
+  for (std::size_t i = 0; i < values; ++i) block_.get()[i] = 0.0f;  // lanes beyond a queue's end are read, masked
+  float* at = block_.get();
+  for_each_queue([&](Queue& q, std::uint32_t fields) {
+    q = {at, stride, 0, capacity};
+    at += std::size_t{fields} * stride;
+  });
+}
+
+}  // namespace norrsken

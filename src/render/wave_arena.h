@@ -1,0 +1,29 @@
+// A worker's memory for waves: one allocation, all queues in it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "tables/wave_types.h"
+
+namespace norrsken {
+
+/// Slots per wave: small enough that the queues stay in the second-level cache, large enough that the partly filled
+/// last register of every queue does not matter. Measured, see docs/performance.md.
+inline constexpr std::uint32_t kWaveSlots = 2048;
+
+class WaveArena {
+ public:
+  /// Queues for waves of at most `slots` slots.
+  explicit WaveArena(std::uint32_t slots = kWaveSlots);
+  WaveMemory& memory() { return memory_; }
+
+ private:
+  struct Free {
+    void operator()(float* p) const;
+  };
+  std::unique_ptr<float, Free> block_;
+  WaveMemory memory_;
+};
+
+}  // namespace norrsken

@@ -1,0 +1,27 @@
+// The one table of random dimensions. A random number is addressed by (pixel, sample, dimension) and never streamed.
+// A set that is used together (a point of the light, a direction) takes as many dimensions as it has numbers.
+#pragma once
+
+#include <cstdint>
+
+namespace norrsken {
+
+namespace camera_dimension {
+inline constexpr std::uint32_t kFilm = 0;  // 2: where in the pixel
+inline constexpr std::uint32_t kLens = 2;  // 2: where on the lens
+inline constexpr std::uint32_t kTime = 4;  // 1
+}  // namespace camera_dimension
+
+/// Per surface hit; hit 1 is the camera ray's.
+namespace hit_dimension {
+inline constexpr std::uint32_t kLight = 0;          // 1: which light
+inline constexpr std::uint32_t kLightPosition = 1;  // 2: where on it
+inline constexpr std::uint32_t kBsdfLobe = 3;       // 1: which part of the BSDF
+inline constexpr std::uint32_t kBsdfDirection = 4;  // 2
+inline constexpr std::uint32_t kRoulette = 6;       // 1
+inline constexpr std::uint32_t kCount = 8;
+}  // namespace hit_dimension
+
+constexpr std::uint32_t first_dimension_of_hit(std::uint32_t hit) { return hit * hit_dimension::kCount; }
+
+}  // namespace norrsken

@@ -1,0 +1,63 @@
+// What kernels intersect: planes with convex polygons for small scenes, plain triangles as the reference, or Embree.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace norrsken {
+
+enum class AccelKind : std::uint32_t { planes, moller_trumbore, embree };
+
+/// A plane n.p = c with |n_k| = 1 for its axis k, so that t = (c - n.o) / (n.d) takes two products for each dot product.
+/// Source: Wald, "Realtime Ray Tracing and Interactive Global Illumination", PhD thesis 2004, section 7.1.1.
+struct PlaneRecord {
+  float nu, nv;               ///< the normal's components along axes u = (k + 1) % 3 and v = (k + 2) % 3, over n_k
+  float c;
+  std::uint32_t back_flip;    ///< 0x80000000 if n_k > 0, else 0: turns the sign of n.d into "seen from the back"
+  std::uint32_t first_polygon, polygon_count;
+};
+
+enum class PolygonKind : std::uint32_t { parallelogram, convex };
+
+/// A convex polygon in its plane's (u, v) coordinates. A point is inside where for
+///   parallelogram: both |a.(u, v, 1)| <= 1 of two rows a,
+///   convex: all rows a.(u, v, 1) >= 0.
+/// Rows are scaled so that the largest value inside is about 1, and widened by a few ulps: neighbours overlap rather
+/// than leave a gap.
+struct PolygonRecord {
+  PolygonKind kind;
+  std::uint32_t first_row, row_count;
+  std::uint32_t primitive;    ///< the first of the triangles that it is made of
+};
+
+struct PolygonRow {
+  float u, v, w;
+};
+
+struct SphereRecord {
+  float center[3];
+  float radius;
+  std::uint32_t primitive;
+  std::uint32_t back_flip;    ///< 0x80000000 if the normal points to the centre
+};
+
+/// The planes of one set of polygons, in order of their axis; planes of axis k are [axis_begin[k], axis_begin[k + 1]).
+struct PlaneSet {
+  std::uint32_t axis_begin[4] = {};
+};
+
+/// Borrowed arrays. `all` are the planes for closest hits. `occluders` are those that can come between two points of
+/// the scene; a plane that has the whole scene on one side cannot. `emitters` are those of area lights.
+struct AccelView {
+  AccelKind kind = AccelKind::planes;
+  const PlaneRecord* planes = nullptr;
+  const PolygonRecord* polygons = nullptr;
+  const PolygonRow* rows = nullptr;
+  const SphereRecord* spheres = nullptr;
+  std::uint32_t sphere_count = 0;
+  PlaneSet all, occluders, emitters;
+  std::uint32_t emitter_sphere_count = 0;  ///< they come first among the spheres
+  void* embree_scene = nullptr;            ///< RTCScene
+};
+
+}  // namespace norrsken

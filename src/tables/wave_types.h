@@ -1,0 +1,93 @@
+// What host and kernels hand each other while rendering: the view of the scene, a wave's job, its memory, the film.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "tables/accel_tables.h"
+#include "tables/scene_tables.h"
+
+namespace norrsken {
+
+/// Independent scramblings of the Sobol' points per pixel; sample s belongs to replicate s % kReplicates.
+inline constexpr std::uint32_t kReplicates = 4;
+
+inline constexpr std::uint32_t kMaxLanes = 16;
+
+/// The scene as kernels see it. Borrowed from SceneTables, AccelTables and the Embree scene.
+struct SceneView {
+  const float* positions = nullptr;
+  const float* normals = nullptr;    ///< null if no shape is smooth
+  const std::uint32_t* triangle_vertices = nullptr;
+  const SurfaceRecord* surfaces = nullptr;
+  const ShapeRecord* shapes = nullptr;
+  const float* bsdf_parameters = nullptr;
+  const LightRecord* lights = nullptr;
+  std::uint32_t triangle_count = 0, sphere_count = 0, light_count = 0;
+  std::uint32_t bsdf_kinds = 0;      ///< bit k: BsdfKind k occurs
+  std::uint32_t light_kinds = 0;     ///< bit k: LightKind k occurs
+  bool any_smooth = false;
+  bool any_area_light = false;
+  CameraRecord camera;
+  FilmSettings film;
+  SamplerSettings sampler;
+  IntegratorSettings integrator;
+  AccelView accel;
+};
+
+/// Samples [first_sample, first_sample + sample_count) of a rectangle of pixels.
+/// Slot of pixel p (row by row in the rectangle) and the rectangle's sample s: s * pixel_stride + p.
+struct WaveJob {
+  std::uint32_t x0 = 0, y0 = 0, width = 0, height = 0;
+  std::uint32_t first_sample = 0, sample_count = 0;
+
+  std::uint32_t pixel_count() const { return width * height; }
+  /// Rows of slots begin at a full register.
+  std::uint32_t pixel_stride() const { return (pixel_count() + kMaxLanes - 1) / kMaxLanes * kMaxLanes; }
+  std::uint32_t slot_count() const { return pixel_stride() * sample_count; }
+};
+
+/// Records in structure-of-arrays form: field k of record i is data[k * stride + i]. Integers are stored as their bits.
+/// Every field begins at a multiple of 64 bytes and has kMaxLanes values to spare at its end.
+struct Queue {
+  float* data = nullptr;
+  std::uint32_t stride = 0;
+  std::uint32_t count = 0;
+  std::uint32_t capacity = 0;
+
+  float* field(std::uint32_t k) const { return data + static_cast<std::size_t>(k) * stride; }
+};
+
+/// One worker's memory for one wave.
+struct WaveMemory {
+  Queue slots;                 ///< SlotField, one record per slot
+  Queue rays, next_rays;       ///< RayField
+  Queue hits[static_cast<std::size_t>(BsdfKind::count)];  ///< HitField, one queue per BSDF kind; [0] is not used
+  Queue light_hits;            ///< HitField
+  Queue shadow_rays;           ///< ShadowField
+};
+
+/// Fields of the records, by number. src/wave/records.h has the lane types that go in and out.
+enum SlotField : std::uint32_t {
+  kSlotRed, kSlotGreen, kSlotBlue, kSlotKey, kSlotIndex,
+  kSlotDepth, kSlotNormalX, kSlotNormalY, kSlotNormalZ, kSlotAlbedoRed, kSlotAlbedoGreen, kSlotAlbedoBlue, kSlotObject,
+  kSlotFieldCount
+};
+enum RayField : std::uint32_t {
+  kRayOriginX, kRayOriginY, kRayOriginZ, kRayDirectionX, kRayDirectionY, kRayDirectionZ,
+  kRayThroughputRed, kRayThroughputGreen, kRayThroughputBlue, kRayPdf, kRaySlot, kRayFieldCount
+};
+/// A hit is its ray and where it ended.
+enum HitField : std::uint32_t { kHitDistance = kRayFieldCount, kHitPrimitive, kHitMaterial, kHitFieldCount };
+enum ShadowField : std::uint32_t {
+  kShadowOriginX, kShadowOriginY, kShadowOriginZ, kShadowDirectionX, kShadowDirectionY, kShadowDirectionZ,
+  kShadowDistance, kShadowRed, kShadowGreen, kShadowBlue, kShadowSlot, kShadowFieldCount
+};
+
+/// Counted by a wave.
+struct WaveCounts {
+  std::uint64_t closest_rays = 0;
+  std::uint64_t shadow_rays = 0;
+};
+
+}  // namespace norrsken

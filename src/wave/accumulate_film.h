@@ -1,0 +1,92 @@
+// Stage: finished SLOTS -> the film's sums.
+#pragma once
+
+#include "simd/lanes.h"
+#include "tables/film_view.h"
+#include "tables/wave_types.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// Every value of the row finite. On the bits, since a loop over integers is vectorised by any compiler.
+NORRSKEN_INLINE bool all_finite(const float* values, std::uint32_t n) {
+  std::uint32_t largest = 0;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    std::uint32_t word;
+    __builtin_memcpy(&word, values + i, sizeof word);
+    word &= 0x7fffffffu;
+    largest = largest > word ? largest : word;
+  }
+  return largest < 0x7f800000u;
+}
+
+NORRSKEN_INLINE void add_row(double* sums, const float* values, std::uint32_t n) {
+  for (std::uint32_t i = 0; i < n; ++i) sums[i] += static_cast<double>(values[i]);
+}
+NORRSKEN_INLINE void add_squares_of_row(double* sums, const float* values, std::uint32_t n) {
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double v = static_cast<double>(values[i]);
+    sums[i] += v * v;
+  }
+}
+
+/// Takes non-finite samples out of one row of pixels: their radiance becomes zero, their count is taken back.
+inline void drop_non_finite(const WaveJob& job, const FilmView& film, const Queue& slots, std::uint32_t sample,
+                            std::uint32_t slot, std::uint32_t pixel, DroppedSamples& dropped) {
+  for (std::uint32_t x = 0; x < job.width; ++x) {
+    bool finite = true;
+    for (std::uint32_t channel = kSlotRed; channel <= kSlotBlue; ++channel) {
+      finite = finite && slots.field(channel)[slot + x] * 0.0f == 0.0f;
+    }
+    if (finite) continue;
+    for (std::uint32_t channel = kSlotRed; channel <= kSlotBlue; ++channel) slots.field(channel)[slot + x] = 0.0f;
+    --film.counts[pixel + x];
+    if (dropped.count < DroppedSamples::kKept) {
+      dropped.pixel[dropped.count] = pixel + x;
+      dropped.sample[dropped.count] = sample;
+    }
+    ++dropped.count;
+  }
+}
+
+inline void accumulate_film(const WaveJob& job, SamplerKind sampler, const Queue& slots, const FilmView& film,
+                            DroppedSamples& dropped) {
+  for (std::uint32_t s = 0; s < job.sample_count; ++s) {
+    const std::uint32_t sample = job.first_sample + s;
+    const std::uint32_t first_plane = sampler == SamplerKind::sobol ? 3 * (sample % kReplicates) : 0;
+    for (std::uint32_t y = 0; y < job.height; ++y) {
+      const std::uint32_t slot = s * job.pixel_stride() + y * job.width;
+      const std::uint32_t pixel = (job.y0 + y) * film.width + job.x0;
+      for (std::uint32_t x = 0; x < job.width; ++x) ++film.counts[pixel + x];
+      if (!all_finite(slots.field(kSlotRed) + slot, job.width) ||
+          !all_finite(slots.field(kSlotGreen) + slot, job.width) ||
+          !all_finite(slots.field(kSlotBlue) + slot, job.width)) {
+        drop_non_finite(job, film, slots, sample, slot, pixel, dropped);
+      }
+      for (std::uint32_t channel = 0; channel < 3; ++channel) {
+        const float* values = slots.field(kSlotRed + channel) + slot;
+        add_row(film.sum_plane(first_plane + channel) + pixel, values, job.width);
+        if (sampler == SamplerKind::independent) {
+          add_squares_of_row(film.sum_plane(3 + channel) + pixel, values, job.width);
+        }
+      }
+    }
+  }
+}
+
+/// Features are plain float sums; the object id is that of the pixel's first sample.
+inline void accumulate_features(const WaveJob& job, const Queue& slots, const FilmView& film) {
+  for (std::uint32_t s = 0; s < job.sample_count; ++s) {
+    for (std::uint32_t y = 0; y < job.height; ++y) {
+      const std::uint32_t slot = s * job.pixel_stride() + y * job.width;
+      const std::size_t pixel = static_cast<std::size_t>(job.y0 + y) * film.width + job.x0;
+      for (std::uint32_t k = 0; k < 8; ++k) {
+        const float* values = slots.field(kSlotDepth + k) + slot;
+        float* plane = film.features + k * film.pixels() + pixel;
+        if (k == 7 && job.first_sample + s > 0) continue;
+        for (std::uint32_t x = 0; x < job.width; ++x) plane[x] += values[x];
+      }
+    }
+  }
+}
+
+}  // namespace norrsken::NORRSKEN_ISA

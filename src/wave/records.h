@@ -1,0 +1,99 @@
+// Records of paths in lanes, and how they go in and out of queues.
+#pragma once
+
+#include "math/vec3.h"
+#include "tables/wave_types.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// A ray on its way, with the path that it continues.
+struct Ray {
+  Vec3f origin, direction;  ///< direction is a unit vector
+  Vec3f throughput;
+  Float pdf_sa;             ///< density that sampled the direction; 0 if no light sampling competes with it
+  UInt slot;
+};
+
+/// A ray that hit something.
+struct Hit {
+  Ray ray;
+  Float t;
+  UInt primitive;
+  UInt material;            ///< the word of the side that was hit
+};
+
+/// A ray that carries `contribution` to its slot unless something is within `t_max`.
+struct ShadowRay {
+  Vec3f origin, direction;
+  Float t_max;
+  Vec3f contribution;
+  UInt slot;
+};
+
+NORRSKEN_INLINE Vec3f load3(const Queue& q, std::uint32_t first_field, std::uint32_t i) {
+  return {load(q.field(first_field) + i), load(q.field(first_field + 1) + i), load(q.field(first_field + 2) + i)};
+}
+NORRSKEN_INLINE void compress_store3(const Queue& q, std::uint32_t first_field, std::uint32_t i, const Vec3f& v,
+                                     Mask m) {
+  compress_store(q.field(first_field) + i, v.x, m);
+  compress_store(q.field(first_field + 1) + i, v.y, m);
+  compress_store(q.field(first_field + 2) + i, v.z, m);
+}
+
+NORRSKEN_INLINE Ray load_ray(const Queue& q, std::uint32_t i) {
+  return {load3(q, kRayOriginX, i), load3(q, kRayDirectionX, i), load3(q, kRayThroughputRed, i),
+          load(q.field(kRayPdf) + i), load_uint(q.field(kRaySlot) + i)};
+}
+NORRSKEN_INLINE void store_ray_fields(const Queue& q, const Ray& r, Mask m) {
+  compress_store3(q, kRayOriginX, q.count, r.origin, m);
+  compress_store3(q, kRayDirectionX, q.count, r.direction, m);
+  compress_store3(q, kRayThroughputRed, q.count, r.throughput, m);
+  compress_store(q.field(kRayPdf) + q.count, r.pdf_sa, m);
+  compress_store(q.field(kRaySlot) + q.count, r.slot, m);
+}
+NORRSKEN_INLINE void push(Queue& q, const Ray& r, Mask m) {
+  store_ray_fields(q, r, m);
+  q.count += count(m);
+}
+
+NORRSKEN_INLINE Hit load_hit(const Queue& q, std::uint32_t i) {
+  return {load_ray(q, i), load(q.field(kHitDistance) + i), load_uint(q.field(kHitPrimitive) + i),
+          load_uint(q.field(kHitMaterial) + i)};
+}
+NORRSKEN_INLINE void push(Queue& q, const Hit& h, Mask m) {
+  store_ray_fields(q, h.ray, m);
+  compress_store(q.field(kHitDistance) + q.count, h.t, m);
+  compress_store(q.field(kHitPrimitive) + q.count, h.primitive, m);
+  compress_store(q.field(kHitMaterial) + q.count, h.material, m);
+  q.count += count(m);
+}
+
+NORRSKEN_INLINE ShadowRay load_shadow_ray(const Queue& q, std::uint32_t i) {
+  return {load3(q, kShadowOriginX, i), load3(q, kShadowDirectionX, i), load(q.field(kShadowDistance) + i),
+          load3(q, kShadowRed, i), load_uint(q.field(kShadowSlot) + i)};
+}
+NORRSKEN_INLINE void push(Queue& q, const ShadowRay& r, Mask m) {
+  compress_store3(q, kShadowOriginX, q.count, r.origin, m);
+  compress_store3(q, kShadowDirectionX, q.count, r.direction, m);
+  compress_store(q.field(kShadowDistance) + q.count, r.t_max, m);
+  compress_store3(q, kShadowRed, q.count, r.contribution, m);
+  compress_store(q.field(kShadowSlot) + q.count, r.slot, m);
+  q.count += count(m);
+}
+
+/// Adds to the slots' radiance. One slot may occur in several lanes (several shadow rays of one hit), so the lanes
+/// go one after the other; the order is the queue's, whatever the register width.
+NORRSKEN_INLINE void add_radiance(const Queue& slots, UInt slot, const Vec3f& value, Mask m) {
+  alignas(64) float red[kLanes], green[kLanes], blue[kLanes], index[kLanes];
+  store(red, value.x), store(green, value.y), store(blue, value.z), store(index, slot);
+  for (std::uint32_t rest = to_bits(m); rest != 0; rest &= rest - 1) {
+    const int i = __builtin_ctz(rest);
+    std::uint32_t s;
+    __builtin_memcpy(&s, &index[i], sizeof s);
+    slots.field(kSlotRed)[s] += red[i];
+    slots.field(kSlotGreen)[s] += green[i];
+    slots.field(kSlotBlue)[s] += blue[i];
+  }
+}
+
+}  // namespace norrsken::NORRSKEN_ISA

@@ -1,0 +1,112 @@
+// The life of a wave, top to bottom: stages over queues, once per bounce.
+//
+//   camera samples -> generate_camera_rays -> RAYS <-----------------------------+
+//                                              |                                 |
+//                              intersect_closest (last: _emitters)               |
+//                                |                            |                  |
+//                           LIGHT HITS                 HITS by BSDF kind         |
+//                                |                            |                  |
+//                          shade_emission               shade_surface ---> next rays
+//                                |                            |
+//                              SLOTS <--- intersect_shadow <--+ SHADOW RAYS
+#pragma once
+
+#include "bsdf/absorb.h"
+#include "bsdf/conductor.h"
+#include "bsdf/diffuse.h"
+#include "wave/accumulate_film.h"
+#include "wave/generate_camera_rays.h"
+#include "wave/intersect_closest.h"
+#include "wave/intersect_shadow.h"
+#include "wave/shade_emission.h"
+#include "wave/shade_features.h"
+#include "wave/shade_surface.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+inline constexpr std::uint32_t kAllScattering = ~1u;  // every BSDF kind but absorb
+
+/// Shades the hits of one kind and traces their shadow rays, in portions that fit the shadow queue: portions of the
+/// hits, and of the light samples per hit where those are many.
+template <class Model>
+inline void shade_kind(const SceneView& scene, ShadeSettings settings, const Queue& hits, WaveMemory& memory,
+                       WaveCounts& counts) {
+  const auto light_samples = static_cast<std::uint32_t>(scene.integrator.emitter_samples);
+  const std::uint32_t most = memory.shadow_rays.capacity / kMaxLanes;
+  const std::uint32_t per_pass = light_samples < most ? light_samples : most;
+  const std::uint32_t portion = memory.shadow_rays.capacity / per_pass / kMaxLanes * kMaxLanes;
+  const bool next_rays = settings.next_rays;
+  for (std::uint32_t begin = 0; begin < hits.count; begin += portion) {
+    const std::uint32_t end = hits.count - begin < portion ? hits.count : begin + portion;
+    for (std::uint32_t first = 0; first < light_samples; first += per_pass) {
+      settings.first_light_sample = first;
+      settings.end_light_sample = light_samples - first < per_pass ? light_samples : first + per_pass;
+      settings.next_rays = next_rays && first == 0;
+      memory.shadow_rays.count = 0;
+      shade_surface<Model>(scene, settings, hits, begin, end, memory.slots, memory.shadow_rays, memory.next_rays);
+      counts.shadow_rays += memory.shadow_rays.count;
+      intersect_shadow(scene, memory.shadow_rays, memory.slots);
+      if (Model::kDelta) break;  // nothing was sampled
+    }
+  }
+}
+
+/// Dispatches on the kind, one queue after the other.
+inline void shade_surfaces(const SceneView& scene, const ShadeSettings& settings, WaveMemory& memory,
+                           WaveCounts& counts) {
+#define NORRSKEN_BSDF(kind, Model) \
+  shade_kind<Model>(scene, settings, memory.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory, counts);
+#include "bsdf/list.def"
+#undef NORRSKEN_BSDF
+}
+
+NORRSKEN_INLINE void clear_hits(WaveMemory& memory) {
+  for (Queue& q : memory.hits) q.count = 0;
+  memory.light_hits.count = 0;
+}
+
+/// Traces a wave's paths from camera to slots.
+inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& memory, WaveCounts& counts) {
+  const IntegratorSettings& integrator = scene.integrator;
+  const auto max_depth = integrator.max_depth < 0 ? 0xffffffffu : static_cast<std::uint32_t>(integrator.max_depth);
+  generate_camera_rays(scene, job, memory.slots, memory.rays);
+  for (std::uint32_t hit_number = 1; hit_number <= max_depth && memory.rays.count > 0; ++hit_number) {
+    const bool last = hit_number == max_depth;
+    counts.closest_rays += memory.rays.count;
+    clear_hits(memory);
+    memory.next_rays.count = 0;
+    if (last && hit_number > 1) {
+      intersect_emitters(scene, memory.rays, memory.light_hits);
+    } else {
+      intersect_closest(scene, hit_number, last ? 0u : kAllScattering, memory.rays, memory.hits, memory.light_hits);
+    }
+    if (!(integrator.hide_emitters && hit_number == 1)) shade_emission(scene, memory.light_hits, memory.slots);
+    if (last) break;
+    // A path's last ray can only find an area light; without one there is no need to send it.
+    const bool next_is_last = hit_number + 1 == max_depth;
+    const ShadeSettings settings{hit_number, 0, 0, !next_is_last || scene.any_area_light,
+                                 hit_number >= static_cast<std::uint32_t>(integrator.rr_depth)};
+    shade_surfaces(scene, settings, memory, counts);
+    const Queue finished = memory.rays;
+    memory.rays = memory.next_rays;
+    memory.next_rays = finished;
+  }
+}
+
+/// The feature layers of a wave's first hits.
+inline void trace_features(const SceneView& scene, const WaveJob& job, WaveMemory& memory, WaveCounts& counts) {
+  generate_camera_rays(scene, job, memory.slots, memory.rays);
+  for (std::uint32_t k = kSlotDepth; k < kSlotFieldCount; ++k) {
+    for (std::uint32_t i = 0; i < memory.slots.count; i += kLanes) store(memory.slots.field(k) + i, Float(0.0f));
+  }
+  clear_hits(memory);
+  counts.closest_rays += memory.rays.count;
+  intersect_closest(scene, 1, ~0u, memory.rays, memory.hits, memory.light_hits);
+  shade_features<Absorb>(scene, memory.hits[0], memory.slots);
+#define NORRSKEN_BSDF(kind, Model) \
+  shade_features<Model>(scene, memory.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory.slots);
+#include "bsdf/list.def"
+#undef NORRSKEN_BSDF
+}
+
+}  // namespace norrsken::NORRSKEN_ISA

@@ -1,0 +1,104 @@
+// Stage: HITS of one BSDF kind -> SHADOW RAYS to the lights, and the paths' next RAYS.
+#pragma once
+
+#include "bsdf/bsdf.h"
+#include "light/sample_lights.h"
+#include "sampler/sampler.h"
+#include "wave/generate_camera_rays.h"
+#include "wave/mis.h"
+#include "wave/surface.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// What holds for all hits of one bounce.
+struct ShadeSettings {
+  std::uint32_t hit_number;   ///< 1 for the camera's hits; the random dimensions of the bounce
+  std::uint32_t first_light_sample, end_light_sample;  ///< which of the emitter_samples per hit to take
+  bool next_rays;             ///< paths go on, if only to look for emission
+  bool roulette;
+};
+
+/// Survival probability as Mitsuba's: the largest component of the throughput, at most 0.95.
+NORRSKEN_INLINE Float survival_probability(const Vec3f& throughput) {
+  return min(max_component(throughput), Float(0.95f));
+}
+
+template <class Model>
+NORRSKEN_INLINE void sample_lights(const SceneView& scene, const ShadeSettings& settings, const Sampler& sampler,
+                                   const SampleKey& key, const Hit& hit, const SurfacePoint& surface,
+                                   const typename Model::Parameters& bsdf, const Vec3f& wo, Queue& shadow_rays,
+                                   Mask active) {
+  const auto n = static_cast<std::uint32_t>(scene.integrator.emitter_samples);
+  const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
+  const bool choose = scene.light_count > 1, mis = scene.integrator.diffuse_bounces;
+  for (std::uint32_t i = settings.first_light_sample; i < settings.end_light_sample; ++i) {
+    const SampleKey k = sampler.repetition(key, i, n);
+    const Float pick = choose ? sampler.sample_1d(k, dimension + hit_dimension::kLight) : Float(0.0f);
+    const Vec2f u = sampler.sample_2d(k, dimension + hit_dimension::kLightPosition);
+    const LightChoice light = sample_one_light(scene, surface.position, pick, u, active);
+
+    const Float side = dot(light.sample.point - surface.position, surface.normal);
+    const Vec3f origin = spawn_origin(surface.position, surface.normal, surface.offset, side);
+    const Vec3f to_light = light.sample.point - origin;
+    const Float distance = sqrt(dot(to_light, to_light));
+    const Vec3f direction = to_light * (Float(1.0f) / distance);
+    const Vec3f wi = surface.frame.to_local(direction);
+
+    const Vec3f f = Model::evaluate(bsdf, wo, wi);
+    const Float light_pdf = light.prob * light.sample.pdf_sa;
+    Float weight = Float(1.0f) / (light_pdf * Float(static_cast<float>(n)));
+    if (mis) {
+      const Float competing = power_heuristic(Float(static_cast<float>(n)), light_pdf, Float(1.0f), Model::pdf_sa(bsdf, wo, wi));
+      weight = weight * select(light.delta, Float(1.0f), competing);
+    }
+    const Vec3f contribution = hit.ray.throughput * f * light.sample.radiance * weight;
+    const Mask lit = active & light.sample.valid & (max_component(contribution) != Float(0.0f));
+    if (any(lit)) push(shadow_rays, ShadowRay{origin, direction, distance, contribution, hit.ray.slot}, lit);
+  }
+}
+
+template <class Model>
+NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings& settings, const Sampler& sampler,
+                                     const SampleKey& key, const Hit& hit, const SurfacePoint& surface,
+                                     const typename Model::Parameters& bsdf, const Vec3f& wo, Queue& next_rays,
+                                     Mask active) {
+  const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
+  Vec2f u{Float(0.0f), Float(0.0f)};
+  if (!Model::kDelta) u = sampler.sample_2d(key, dimension + hit_dimension::kBsdfDirection);
+  const BsdfSample sample = Model::sample(bsdf, wo, Float(0.0f), u);
+  Vec3f throughput = hit.ray.throughput * sample.weight;
+  active &= sample.valid & (max_component(throughput) > Float(0.0f));
+  if (settings.roulette) {
+    const Float survive = survival_probability(throughput);
+    active &= sampler.sample_1d(key, dimension + hit_dimension::kRoulette) < survive;
+    throughput = throughput * (Float(1.0f) / survive);
+  }
+  const Vec3f direction = surface.frame.to_world(sample.wi);
+  const Vec3f origin =
+      spawn_origin(surface.position, surface.normal, surface.offset, dot(direction, surface.normal));
+  // Light sampling competes with a direction unless it is a delta or nothing can be sampled.
+  const Float pdf = scene.light_count > 0 ? sample.pdf_sa : Float(0.0f);
+  if (any(active)) push(next_rays, Ray{origin, direction, throughput, pdf, hit.ray.slot}, active);
+}
+
+/// Hits [begin, end) of the queue; begin is a multiple of kLanes. `shadow_rays` has room for all of them.
+template <class Model>
+inline void shade_surface(const SceneView& scene, const ShadeSettings& settings, const Queue& hits,
+                          std::uint32_t begin, std::uint32_t end, const Queue& slots, Queue& shadow_rays,
+                          Queue& next_rays) {
+  const Sampler sampler{scene.sampler.kind};
+  const bool light_sampling = !Model::kDelta && scene.light_count > 0;
+  const bool go_on = settings.next_rays && (Model::kDelta || scene.integrator.diffuse_bounces);
+  for (std::uint32_t i = begin; i < end; i += kLanes) {
+    const Mask active = first_lanes(end - i);
+    const Hit hit = load_hit(hits, i);
+    const SurfacePoint surface = make_surface_point(scene, hit, active);
+    const auto bsdf = Model::load(scene.bsdf_parameters, hit.material & UInt(kMaterialOffsetMask), active);
+    const Vec3f wo = surface.frame.to_local(-hit.ray.direction);
+    const SampleKey key = load_sample_key(slots, hit.ray.slot, active);
+    if (light_sampling) sample_lights<Model>(scene, settings, sampler, key, hit, surface, bsdf, wo, shadow_rays, active);
+    if (go_on) sample_next_ray<Model>(scene, settings, sampler, key, hit, surface, bsdf, wo, next_rays, active);
+  }
+}
+
+}  // namespace norrsken::NORRSKEN_ISA
