@@ -8,7 +8,8 @@
 
 namespace norrsken {
 
-/// Figures over all pixels of R, G, B. `reference` is the second image of `compare`.
+/// Figures over all pixels of R, G, B, of the image `a` against the reference `b`. Where just one image is infinite or
+/// either is NaN, the figures of linear radiance are infinite or NaN; PSNR and FLIP see what a PNG would show.
 struct Comparison {
   double mse = 0;      ///< mean squared error of linear radiance, over pixels and channels
   double rel_mse = 0;  ///< mean of (a-b)^2 / (b^2 + 0.01), as in Rousselle et al. 2011
@@ -18,7 +19,8 @@ struct Comparison {
   double mean_b = 0;
 
   /// Pixel-wise test of "both estimate the same image", where at least one image carries `variance.R/G/B`
-  /// (the variance of the mean).
+  /// (the variance of the mean); an image without them counts as exact. Pixel channels without variance on either side
+  /// must be equal; those whose variance is unknown (NaN, infinite, negative) are left out.
   struct ZTest {
     double passed_share = 0;   ///< share of pixel channels not rejected at the Sidak-corrected 1 % level
     double mean_z[3] = {};     ///< z-score of the difference of the whole-image means, per channel

@@ -24,7 +24,7 @@ struct Image {
   std::map<std::string, std::string> metadata;  ///< free text that EXR and PNG headers carry
 
   const Channel* find(std::string_view name) const;
-  /// Adds a channel of zeros (or returns the one of that name).
+  /// Adds a channel of zeros (or returns the one of that name). The reference holds until the next one is added.
   Channel& channel(std::string_view name);
 };
 
@@ -42,11 +42,14 @@ struct [[nodiscard]] IoStatus {
 };
 
 /// Writes by file extension: .exr (every channel, float32), .png (8 bit) and .jpg (tone-mapped R, G, B).
-/// The file is written under a temporary name in the same folder and renamed, so a reader never sees half of it.
-/// Errors: unknown extension, unwritable folder, full disk, size beyond the format.
+/// The file is written under a temporary name in the same folder and renamed, so a reader never sees half of it; on
+/// an error a file that was there before stays. In PNG and JPEG NaN and what is below 0 are black, infinity is white.
+/// Errors: unknown extension, unwritable folder, full disk, size beyond the format, no R, G, B for PNG or JPEG.
 IoStatus write_image(const std::string& path, const Image& image, const ToneMapping& tone = {});
 
-/// Reads any format that OpenImageIO knows as float channels; 8-bit colour is decoded from sRGB to linear.
+/// Reads any format that OpenImageIO knows as float channels; 8-bit colour is decoded from sRGB to linear, alpha is
+/// left as the file has it (not multiplied). Of several images in a file the first counts.
+/// Errors: not a regular file, unknown or damaged format, more than 2^30 values. `image` changes on success only.
 IoStatus read_image(const std::string& path, Image& image);
 
 /// Whether `write_image` knows the extension, asked before a long render: empty, or what is wrong and accepted.

@@ -137,6 +137,24 @@ TEST(Flip, OrderAndOrientationDoNotMatter) {
   }
 }
 
+// Values of the authors' own program, flip-evaluator 1.7, for the same two images. It computes in single precision.
+TEST(Flip, AgreesWithTheAuthorsProgram) {
+  constexpr int kWidth = 50, kHeight = 30;
+  const struct {
+    double pixels_per_degree, mean, first, middle, last;
+  } expected[] = {{20, 0.84575956, 0.60619396, 0.96040440, 0.68320763},
+                  {67, 0.43328328, 0.41400203, 0.43576860, 0.70709282}};
+  for (const auto& [pixels_per_degree, mean, first, middle, last] : expected) {
+    const auto map = flip_map(noise(kWidth, kHeight, 1), noise(kWidth, kHeight, 2), pixels_per_degree);
+    double sum = 0;
+    for (const float value : map) sum += value;
+    EXPECT_NEAR(sum / (kWidth * kHeight), mean, 2e-5);
+    EXPECT_NEAR(map.front(), first, 1e-4);
+    EXPECT_NEAR(map[15 * kWidth + 25], middle, 1e-4);
+    EXPECT_NEAR(map.back(), last, 1e-4);
+  }
+}
+
 TEST(Flip, ErrorsStayBetweenZeroAndOne) {
   for (const double pixels_per_degree : {1.0, 20.0, 200.0, 1000.0}) {
     for (const float value : flip_map(noise(13, 1, 3), noise(13, 1, 4), pixels_per_degree)) {

@@ -37,6 +37,7 @@ Imath::V2f to_imath(Chromaticity c) { return {static_cast<float>(c.x), static_ca
 std::string encode_exr(AtomicFile& file, const Image& image) try {
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
+  header.zipCompressionLevel() = 2;  // up to a third faster than the default of 4 for at most 5 % more bytes
   Imf::addChromaticities(header, {to_imath(kSrgbRed), to_imath(kSrgbGreen), to_imath(kSrgbBlue), to_imath(kSrgbWhite)});
   for (const auto& [name, text] : image.metadata) {
     if (header.find(name) != header.end()) return "metadata '" + name + "': EXR uses this name itself";

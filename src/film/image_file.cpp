@@ -19,13 +19,13 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestPath = 4096;  // bytes shown in full
 
-IoStatus failure(const std::string& path, const std::string& reason) {
-  return {"cannot write " + quoted(path, kLongestPath) + ": " + reason};
-}
-
 std::string error_text(int error) { return std::generic_category().message(error); }
 
 }  // namespace
+
+IoStatus write_failure(const std::string& path, const std::string& reason) {
+  return {"cannot write " + quoted(path, kLongestPath) + ": " + reason};
+}
 
 AtomicFile::~AtomicFile() { discard(); }
 
@@ -41,26 +41,27 @@ IoStatus AtomicFile::create(const std::string& path) {
   path_ = path;
   position_ = 0;
   error_ = 0;
-  if (path.empty() || path.find('\0') != std::string::npos) return failure(path, "not a file name");
+  if (path.empty() || path.find('\0') != std::string::npos) return write_failure(path, "not a file name");
 
   std::error_code code;
   fs::path target = path;
   if (fs::is_symlink(target, code)) {
     target = fs::weakly_canonical(target, code);
-    if (code) return failure(path, code.message());
+    if (code) return write_failure(path, code.message());
   }
   const fs::file_status existing = fs::status(target, code);
-  if (existing.type() == fs::file_type::none) return failure(path, code.message());
+  if (existing.type() == fs::file_type::none) return write_failure(path, code.message());
   if (fs::exists(existing)) {
-    if (fs::is_directory(existing)) return failure(path, "it is a folder");
-    if (!fs::is_regular_file(existing)) return failure(path, "it is not a regular file");
-    if (access(target.c_str(), W_OK) != 0) return failure(path, error_text(errno));
+    if (fs::is_directory(existing)) return write_failure(path, "it is a folder");
+    if (!fs::is_regular_file(existing)) return write_failure(path, "it is not a regular file");
+    if (access(target.c_str(), W_OK) != 0) return write_failure(path, error_text(errno));
   }
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   const fs::file_status folder_status = fs::status(folder, code);
-  if (!fs::exists(folder_status)) return failure(path, "there is no folder " + quoted(folder.string(), kLongestPath));
+  if (!fs::exists(folder_status))
+    return write_failure(path, "there is no folder " + quoted(folder.string(), kLongestPath));
   if (!fs::is_directory(folder_status))
-    return failure(path, quoted(folder.string(), kLongestPath) + " is not a folder");
+    return write_failure(path, quoted(folder.string(), kLongestPath) + " is not a folder");
   target_ = target.string();
 
   // The name is short, whatever the target's length; the extension stays, for whoever finds it after a power cut.
@@ -76,14 +77,14 @@ IoStatus AtomicFile::create(const std::string& path) {
   if (descriptor < 0) {
     const int error = errno;
     temporary_.clear();
-    return failure(path, error_text(error));
+    return write_failure(path, error_text(error));
   }
   file_ = fdopen(descriptor, "wb");
   if (file_ == nullptr) {
     const int error = errno;
     close(descriptor);
     discard();
-    return failure(path, error_text(error));
+    return write_failure(path, error_text(error));
   }
   return {};
 }
@@ -108,7 +109,7 @@ bool AtomicFile::seek(std::uint64_t position) {
 }
 
 IoStatus AtomicFile::commit() {
-  if (file_ == nullptr) return failure(path_, "it was not created");
+  if (file_ == nullptr) return write_failure(path_, "it was not created");
   if (error_ == 0) check(std::fflush(file_) == 0 && fsync(fileno(file_)) == 0);
   check(std::fclose(std::exchange(file_, nullptr)) == 0);
   if (error_ == 0) check(rename(temporary_.c_str(), target_.c_str()) == 0);
@@ -117,7 +118,7 @@ IoStatus AtomicFile::commit() {
     return {};
   }
   discard();
-  return failure(path_, error_text(error_));
+  return write_failure(path_, error_text(error_));
 }
 
 }  // namespace norrsken

@@ -10,6 +10,9 @@
 
 namespace norrsken {
 
+/// "cannot write 'PATH': REASON"
+IoStatus write_failure(const std::string& path, const std::string& reason);
+
 /// Collects bytes under a temporary name in the folder of `path` and gives them that name in `commit`. A file that
 /// is not committed is removed; what was there under the name before stays until the moment of commit. A symbolic
 /// link is followed, so that it goes on pointing to the file.

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/text.h"
 #include "color/tone.h"
 #include "film/image_encode.h"
 #include "film/image_file.h"
@@ -17,23 +18,19 @@ constexpr struct {
   Format format;
 } kFormats[] = {{".exr", Format::exr}, {".png", Format::png}, {".jpg", Format::jpeg}, {".jpeg", Format::jpeg}};
 
-IoStatus failure(const std::string& path, const std::string& reason) {
-  return {"cannot write '" + path + "': " + reason};
-}
-
 IoStatus find_format(const std::string& path, Format& format) {
-  const std::string written = std::filesystem::path(path).extension().string();
-  std::string extension = written, accepted;
-  std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  const std::string extension = std::filesystem::path(path).extension().string();
+  std::string accepted;
   for (const auto& known : kFormats) {
-    if (extension == known.extension) {
+    if (equal_ignoring_case(extension, known.extension)) {
       format = known.format;
       return {};
     }
     accepted += (accepted.empty() ? "" : ", ") + std::string(known.extension);
   }
-  return failure(path, (written.empty() ? "no file name extension" : "unknown file name extension '" + written + "'") +
-                           ", accepted: " + accepted);
+  return write_failure(
+      path, (extension.empty() ? "no file name extension" : "unknown file name extension '" + extension + "'") +
+                ", accepted: " + accepted);
 }
 
 /// What is wrong with the image whatever its format, or nothing.
@@ -78,13 +75,13 @@ std::string to_bytes(const Image& image, const ToneMapping& tone, int largest_si
 IoStatus write_image(const std::string& path, const Image& image, const ToneMapping& tone) {
   Format format{};
   if (IoStatus status = find_format(path, format); !status) return status;
-  if (const std::string complaint = complaint_about(image); !complaint.empty()) return failure(path, complaint);
+  if (const std::string complaint = complaint_about(image); !complaint.empty()) return write_failure(path, complaint);
 
   ByteImage bytes;
   if (format != Format::exr) {
     const int largest_side = format == Format::png ? kLargestPngSide : kLargestJpegSide;
     const std::string complaint = to_bytes(image, tone, largest_side, bytes);
-    if (!complaint.empty()) return failure(path, complaint);
+    if (!complaint.empty()) return write_failure(path, complaint);
   }
 
   AtomicFile file;
@@ -103,7 +100,7 @@ IoStatus write_image(const std::string& path, const Image& image, const ToneMapp
   }
   // A disk that is full says more than a library that could not write.
   if (file.failed() || complaint.empty()) return file.commit();
-  return failure(path, complaint);
+  return write_failure(path, complaint);
 }
 
 IoStatus check_writable(const std::string& path) {
