@@ -1,0 +1,339 @@
+// Reader for Wavefront OBJ (Appendix B1 of Wavefront's Advanced Visualizer manual): one pass over the bytes, then
+// vertices are made of what the faces put together.
+#include <fmt/format.h>
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <new>
+#include <stdexcept>
+
+#include "base/numbers.h"
+#include "base/text.h"
+#include "formats/mesh_complaints.h"
+#include "formats/mesh_readers.h"
+#include "scene/description.h"
+
+namespace norrsken {
+namespace {
+
+constexpr std::uint32_t kAbsent = 0xffffffffu;
+
+// What a face's corner refers to, counted from 0.
+struct Corner {
+  std::uint32_t position, texcoord, normal;
+  bool operator==(const Corner&) const = default;
+};
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view bytes, const std::string& path, Diagnostics& diagnostics)
+      : at_(bytes.data()), end_(bytes.data() + bytes.size()), complaints_(path, bytes, diagnostics) {}
+
+  std::optional<MeshData> read() {
+    while (at_ < end_ && !complaints_.gave_up()) {
+      statement();
+      skip_line();
+    }
+    check_forward_references();
+    if (corners_.empty() && !complaints_.any())
+      complaints_.about_file("the file has no faces", "OBJ text with 'v' and 'f' lines");
+    if (complaints_.any()) return std::nullopt;
+    fill_in_absent();
+    return assemble();
+  }
+
+ private:
+  /// A corner's reference to something that the file may still bring.
+  struct ForwardReference {
+    std::string_view token;
+    std::uint32_t index;
+    int kind;
+  };
+
+  // --- text ---
+
+  // Blanks, and line breaks behind a backslash.
+  void skip_blanks() {
+    while (at_ < end_) {
+      if (*at_ == ' ' || *at_ == '\t' || *at_ == '\r') {
+        ++at_;
+      } else if (*at_ == '\\' && at_ + 1 < end_ && at_[1] == '\n') {
+        at_ += 2;
+      } else if (*at_ == '\\' && at_ + 2 < end_ && at_[1] == '\r' && at_[2] == '\n') {
+        at_ += 3;
+      } else {
+        return;
+      }
+    }
+  }
+
+  void skip_line() {
+    while (at_ < end_ && *at_ != '\n') ++at_;
+    if (at_ < end_) ++at_;
+  }
+
+  bool at_token_end(const char* p) const {
+    return p == end_ || *p == ' ' || *p == '\t' || *p == '\r' || *p == '\n' || *p == '\\' || *p == '#';
+  }
+  bool at_line_end() const { return at_ == end_ || *at_ == '\n' || *at_ == '#'; }
+
+  std::string_view token() const {
+    const char* stop = at_;
+    while (!at_token_end(stop)) ++stop;
+    return {at_, static_cast<std::size_t>(stop - at_)};
+  }
+
+  // --- statements ---
+
+  void statement() {
+    skip_blanks();
+    const std::string_view keyword = token();
+    at_ += keyword.size();
+    if (keyword == "v") {
+      numbers(positions_, keyword, 3, static_cast<float>(kMaxCoordinate));
+    } else if (keyword == "vn") {
+      numbers(normals_, keyword, 3, std::numeric_limits<float>::max());
+    } else if (keyword == "vt") {
+      numbers(texcoords_, keyword, 1, std::numeric_limits<float>::max());
+    } else if (keyword == "f") {
+      face(keyword);
+    }
+  }
+
+  // As many numbers as an element has, of which `required` must be there; what follows (w, colours) is skipped.
+  template <std::size_t Count>
+  void numbers(std::vector<std::array<float, Count>>& into, std::string_view keyword, std::size_t required,
+               float limit) {
+    std::array<float, Count> values{};
+    for (std::size_t i = 0; i < Count; ++i) {
+      skip_blanks();
+      if (at_line_end()) {
+        if (i < required) complaints_.at(keyword, fmt::format("'{}' has {} numbers", keyword, i), accepted(required));
+        break;
+      }
+      if (!number(values[i], limit)) break;
+    }
+    into.push_back(values);  // also after a complaint: indices of what follows stay right
+  }
+
+  static std::string accepted(std::size_t count) {
+    return count == 1 ? "at least one number" : fmt::format("{} numbers", count);
+  }
+
+  bool number(float& value, float limit) {
+    const char* const first = at_ + (*at_ == '+' && at_ + 1 < end_ && at_[1] != '-' ? 1 : 0);
+    const auto [stop, error] = std::from_chars(first, end_, value);
+    if (error == std::errc() && at_token_end(stop) && std::abs(value) <= limit) {
+      at_ = stop;
+      return true;
+    }
+    // The rare case, once more and in detail.
+    const std::string_view word = token();
+    NumberStatus status = parse_number(word, value);
+    if (status == NumberStatus::ok && std::abs(value) > limit) status = NumberStatus::overflow;
+    at_ += word.size();
+    if (status == NumberStatus::ok) return true;
+    complaints_.at(word, fmt::format("{} {}", quoted(word), describe(status)),
+                   status == NumberStatus::malformed ? "a number such as 1.5 or -2e3"
+                                                     : fmt::format("a number from {:g} to {:g}", -limit, limit));
+    return false;
+  }
+
+  void face(std::string_view keyword) {
+    polygon_.clear();
+    for (skip_blanks(); !at_line_end(); skip_blanks()) {
+      Corner corner{};
+      if (!read_corner(corner)) return;
+      polygon_.push_back(corner);
+    }
+    if (polygon_.size() < 3) {
+      complaints_.at(keyword, fmt::format("a face of {} vertices", polygon_.size()), "at least 3 vertices");
+      return;
+    }
+    for (std::size_t i = 2; i < polygon_.size(); ++i) {
+      corners_.push_back(polygon_[0]);
+      corners_.push_back(polygon_[i - 1]);
+      corners_.push_back(polygon_[i]);
+    }
+  }
+
+  // "p", "p/t", "p//n" or "p/t/n".
+  bool read_corner(Corner& corner) {
+    const std::string_view word = token();
+    std::uint32_t* const parts[] = {&corner.position, &corner.texcoord, &corner.normal};
+    corner = {kAbsent, kAbsent, kAbsent};
+    const char* const stop = word.data() + word.size();
+    for (int kind = 0; kind < 3; ++kind) {
+      if (at_ != stop && *at_ != '/' && !index(word, kind, stop, *parts[kind])) return false;
+      if (at_ == stop) break;
+      if (*at_ != '/' || kind == 2) return malformed(word);
+      ++at_;
+    }
+    return corner.position != kAbsent || malformed(word);
+  }
+
+  bool malformed(std::string_view word) {
+    at_ = word.data() + word.size();
+    complaints_.at(word, fmt::format("{} is no vertex of a face", quoted(word)), "p, p/t, p//n or p/t/n with indices");
+    return false;
+  }
+
+  std::size_t count(int kind) const {
+    return kind == 0 ? positions_.size() : kind == 1 ? texcoords_.size() : normals_.size();
+  }
+
+  bool index(std::string_view word, int kind, const char* stop, std::uint32_t& result) {
+    std::int64_t value = 0;
+    const auto [next, error] = std::from_chars(at_, stop, value);
+    if (error == std::errc::invalid_argument) return malformed(word);
+    const std::string_view digits(at_, static_cast<std::size_t>(next - at_));
+    at_ = next;
+    const auto known = static_cast<std::int64_t>(count(kind));
+    const std::int64_t zero_based = value > 0 ? value - 1 : known + value;
+    if (error != std::errc() || value == 0 || zero_based < 0 || zero_based >= kAbsent) {
+      out_of_range(digits, kind);
+      at_ = word.data() + word.size();
+      return false;
+    }
+    result = static_cast<std::uint32_t>(zero_based);
+    if (zero_based >= known) forward_.push_back({digits, result, kind});
+    return true;
+  }
+
+  void out_of_range(std::string_view digits, int kind) {
+    constexpr const char* kKeywords[] = {"v", "vt", "vn"};
+    complaints_.at(digits, fmt::format("there is no '{}' number {}", kKeywords[kind], digits),
+                   count(kind) == 0 ? fmt::format("no index: there are no '{}' lines", kKeywords[kind])
+                                    : fmt::format("1 to {0}, or -{0} to -1 counted back from here", count(kind)));
+  }
+
+  // Faces may come before what they are made of.
+  void check_forward_references() {
+    for (const ForwardReference& reference : forward_) {
+      if (complaints_.gave_up()) return;
+      if (reference.index >= count(reference.kind)) out_of_range(reference.token, reference.kind);
+    }
+  }
+
+  // --- assembly ---
+
+  // Where only some corners have a normal or texture coordinates, the others get their triangle's normal and (0, 0).
+  void fill_in_absent() {
+    const auto has = [this](std::uint32_t Corner::*part) {
+      std::size_t present = 0;
+      for (const Corner& corner : corners_) present += corner.*part != kAbsent ? 1 : 0;
+      return present;
+    };
+    const std::size_t with_texcoord = has(&Corner::texcoord), with_normal = has(&Corner::normal);
+    has_texcoords_ = with_texcoord > 0;
+    has_normals_ = with_normal > 0;
+    if (has_texcoords_ && with_texcoord < corners_.size()) {
+      const auto origin = static_cast<std::uint32_t>(texcoords_.size());
+      texcoords_.push_back({0, 0});
+      for (Corner& corner : corners_) {
+        if (corner.texcoord == kAbsent) corner.texcoord = origin;
+      }
+    }
+    if (!has_normals_ || with_normal == corners_.size()) return;
+    for (std::size_t i = 0; i < corners_.size(); i += 3) {
+      const auto own = static_cast<std::uint32_t>(normals_.size());
+      bool is_used = false;
+      for (std::size_t k = i; k < i + 3; ++k) {
+        if (corners_[k].normal != kAbsent) continue;
+        corners_[k].normal = own;
+        is_used = true;
+      }
+      if (is_used) normals_.push_back(triangle_normal(i));
+    }
+  }
+
+  std::array<float, 3> triangle_normal(std::size_t first) const {
+    const auto position = [&](std::size_t k) {
+      const auto& p = positions_[corners_[first + k].position];
+      return glm::dvec3(p[0], p[1], p[2]);
+    };
+    const glm::dvec3 n = glm::cross(position(1) - position(0), position(2) - position(0));
+    const double length = glm::length(n);
+    const glm::vec3 unit(length > 0 ? n / length : glm::dvec3(0, 0, 1));
+    return {unit.x, unit.y, unit.z};
+  }
+
+  // Whether every corner has one index for all of its parts, so that the file's vertices can be taken as they are.
+  bool is_singly_indexed() const {
+    if (has_texcoords_ && texcoords_.size() != positions_.size()) return false;
+    if (has_normals_ && normals_.size() != positions_.size()) return false;
+    for (const Corner& corner : corners_) {
+      if (has_texcoords_ && corner.texcoord != corner.position) return false;
+      if (has_normals_ && corner.normal != corner.position) return false;
+    }
+    return true;
+  }
+
+  MeshData assemble() {
+    MeshData mesh;
+    mesh.triangles.resize(corners_.size() / 3);
+    if (is_singly_indexed()) {
+      for (std::size_t i = 0; i < corners_.size(); ++i) mesh.triangles[i / 3][i % 3] = corners_[i].position;
+      mesh.positions = std::move(positions_);
+      if (has_texcoords_) mesh.texcoords = std::move(texcoords_);
+      if (has_normals_) mesh.normals = std::move(normals_);
+      return mesh;
+    }
+    // A vertex for every combination of parts, found again in an open-addressing table at most half full.
+    std::vector<std::uint32_t> table(std::bit_ceil(corners_.size() * 2), kAbsent);
+    const std::size_t mask = table.size() - 1;
+    std::vector<Corner> vertices;
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      const Corner& corner = corners_[i];
+      std::size_t slot = hash(corner) & mask;
+      while (table[slot] != kAbsent && !(vertices[table[slot]] == corner)) slot = (slot + 1) & mask;
+      if (table[slot] == kAbsent) {
+        table[slot] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back(corner);
+      }
+      mesh.triangles[i / 3][i % 3] = table[slot];
+    }
+    mesh.positions.reserve(vertices.size());
+    if (has_texcoords_) mesh.texcoords.reserve(vertices.size());
+    if (has_normals_) mesh.normals.reserve(vertices.size());
+    for (const Corner& vertex : vertices) {
+      mesh.positions.push_back(positions_[vertex.position]);
+      if (has_texcoords_) mesh.texcoords.push_back(texcoords_[vertex.texcoord]);
+      if (has_normals_) mesh.normals.push_back(normals_[vertex.normal]);
+    }
+    return mesh;
+  }
+
+  // Finalizer of SplitMix64 (Steele, Lea, Flood 2014) over the three indices.
+  static std::size_t hash(const Corner& corner) {
+    std::uint64_t h = corner.position * 0x9e3779b97f4a7c15u;
+    h = (h ^ corner.texcoord) * 0xbf58476d1ce4e5b9u;
+    h = (h ^ (h >> 27) ^ corner.normal) * 0x94d049bb133111ebu;
+    return static_cast<std::size_t>(h ^ (h >> 31));
+  }
+
+  const char* at_;
+  const char* end_;
+  MeshComplaints complaints_;
+  std::vector<std::array<float, 3>> positions_, normals_;
+  std::vector<std::array<float, 2>> texcoords_;
+  std::vector<Corner> corners_;  ///< three for every triangle
+  std::vector<Corner> polygon_;  ///< of the face being read
+  std::vector<ForwardReference> forward_;
+  bool has_texcoords_ = false, has_normals_ = false;
+};
+
+}  // namespace
+
+std::optional<MeshData> read_obj(std::string_view bytes, const std::string& path, Diagnostics& diagnostics) {
+  try {
+    return ObjReader(bytes, path, diagnostics).read();
+  } catch (const std::bad_alloc&) {
+    MeshComplaints(path, bytes, diagnostics).about_file("the mesh does not fit into memory");
+    return std::nullopt;
+  }
+}
+
+}  // namespace norrsken
