@@ -19,6 +19,9 @@ FAMILIES = ["bsdf", "camera", "integrator", "light", "rfilter", "sampler", "shap
 # Mathematics that several models of a family use.
 SHARED = {"sampler/dimensions.h", "sampler/hash.h"}
 
+# Loops over the kinds of a family, besides FAMILY/FAMILY.h.
+DISPATCH = {"light/sample_lights.h"}
+
 # Headers of families that compute tables: for src/compile as well. (What only a family's own host files share is in a
 # header that ends in _host.)
 HOST_HEADERS = {"light/light_choice.h"}
@@ -95,7 +98,7 @@ class File:
             not self.is_header or path.stem.endswith("_host") or name in HOST_HEADERS)
         self.is_kernel_header = (
             self.is_header and self.layer in KERNEL_LAYERS and self.layer not in API_USERS and not self.is_family_host)
-        self.is_dispatch = path.stem == self.layer
+        self.is_dispatch = path.stem == self.layer or name in DISPATCH
 
 
 def forbidden_project_include(file, target):
@@ -117,7 +120,7 @@ def forbidden_project_include(file, target):
         return None  # lists of names: data, which every layer may expand
     stem = target.split("/")[1].rsplit(".", 1)[0]
     if layer == file.layer:
-        is_model = layer in FAMILIES and stem != layer and target not in SHARED | HOST_HEADERS
+        is_model = layer in FAMILIES and stem != layer and target not in SHARED | DISPATCH | HOST_HEADERS
         is_shared_host = file.is_family_host and stem.endswith("_host")
         if is_model and stem != file.path.stem and not file.is_dispatch and not is_shared_host:
             return f"the models of src/{layer} do not include each other"
