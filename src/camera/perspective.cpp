@@ -31,13 +31,13 @@ namespace {
 const double kFilmDiagonal = std::hypot(36.0, 24.0);
 
 /// Angle in radians along the film's diagonal.
-double angle_of_focal_length(Parameters& p) {
+double focal_length_angle(Parameters& p) {
   const std::string text = p.text("focal_length", "50mm");
-  double millimetres = 50;
-  const bool has_unit = text.ends_with("mm");
-  const auto status =
-      has_unit ? parse_number(trim(std::string_view(text).substr(0, text.size() - 2)), millimetres) : NumberStatus::malformed;
-  if (status != NumberStatus::ok || millimetres < 1e-3 || millimetres > 1e6) {
+  constexpr std::string_view kUnit = "mm";
+  double millimetres = 0;
+  const bool parsed = text.ends_with(kUnit) && parse_number(trim(std::string_view(text).substr(0, text.size() - 2)),
+                                                            millimetres) == NumberStatus::ok;
+  if (!parsed || millimetres < 1e-3 || millimetres > 1e6) {
     p.error("focal_length", fmt::format("'focal_length' is {}", quoted(text)),
             "a length from 0.001mm to 1000000mm, such as 50mm");
     millimetres = 50;
@@ -48,21 +48,19 @@ double angle_of_focal_length(Parameters& p) {
 /// Half the image's width at distance 1.
 double half_width(Parameters& p, double aspect) {
   std::string axis = p.choice("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"});
-  double angle;
-  if (p.has("fov")) {
+  double degrees = p.number("fov", 45, 0, 180);
+  if (degrees == 0 || degrees == 180) {
+    p.error("fov", fmt::format("'fov' is {}", degrees), "a number above 0 and below 180");
+    degrees = 45;
+  }
+  double angle = focal_length_angle(p);
+  if (!p.has("fov")) {
+    axis = "diagonal";
+  } else {
+    angle = glm::radians(degrees);
     if (p.has("focal_length")) {
       p.error("focal_length", "sensor 'perspective' has both 'fov' and 'focal_length'", "one of them");
-      p.text("focal_length", "");
     }
-    double degrees = p.number("fov", 45, 0, 180);
-    if (degrees == 0 || degrees == 180) {
-      p.error("fov", fmt::format("'fov' is {}", degrees), "a number above 0 and below 180");
-      degrees = 45;
-    }
-    angle = glm::radians(degrees);
-  } else {
-    angle = angle_of_focal_length(p);
-    axis = "diagonal";
   }
   const double half = std::tan(angle / 2);
   if (axis == "smaller") axis = aspect > 1 ? "y" : "x";

@@ -26,8 +26,11 @@ std::uint64_t bytes_of(const Container& container) {
 }  // namespace
 
 void Builder::refuse_kinds_to_come(Parameters& parameters) {
-  for (const char* kind : {"medium", "texture", "volume"}) {
-    for (const Node::Child* child : parameters.children(kind)) complain_about_plugin(*child->node, {}, diagnostics_);
+  for (const Node::Child& child : parameters.node().children) {
+    const std::string& kind = child.node->kind;
+    if (kind != "medium" && kind != "texture" && kind != "volume") continue;
+    complain_about_plugin(*child.node, {}, diagnostics_);
+    parameters.children(kind);  // said enough about those
   }
 }
 

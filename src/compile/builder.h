@@ -19,7 +19,7 @@ namespace norrsken {
 /// Bounds on what a scene may ask for.
 inline constexpr int kMaxFilmSide = 65536;
 inline constexpr std::int64_t kMaxFilmPixels = std::int64_t{1} << 28;
-inline constexpr double kMaxEmission = 1e15;  ///< of radiance and intensity; its square must fit a float
+inline constexpr double kMaxEmission = 1e18;  ///< of radiance and intensity; its square must fit a float
 
 /// The two sides of a surface; `front` is the one that the normal points to.
 struct Material {

@@ -18,7 +18,7 @@ struct LoadedScene {
 };
 
 /// Compiles a description. Overrides in `options` (integrator, sampler, size) win over the scene's own nodes; their
-/// complaints have no location. Empty if there was any error.
+/// complaints have no location. Empty if `diagnostics` holds any error, one of the reader's included.
 std::optional<LoadedScene> compile(const Description& description, const FileSystem& files, const LoadOptions& options,
                                    Diagnostics& diagnostics);
 

@@ -93,10 +93,7 @@ void MitsubaContext::refuse_contents(const XmlDocument& document, pugi::xml_node
 }
 
 std::string MitsubaContext::searched_folders(const XmlDocument& document) const {
-  const std::string beside = folder_of(document.source().path());
-  std::vector<std::string> folders{beside.empty() ? "the current folder" : beside};
-  folders.insert(folders.end(), search_paths.begin(), search_paths.end());
-  return "a file in " + join(folders);
+  return "a file in " + norrsken::searched_folders(document.source().path(), search_paths);
 }
 
 const std::vector<std::string>& value_types() {

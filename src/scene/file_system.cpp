@@ -4,11 +4,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <filesystem>
 #include <new>
 #include <system_error>
+
+#include "base/text.h"
 
 namespace norrsken {
 namespace {
@@ -139,6 +142,17 @@ std::string resolve_file(const FileSystem& files, const std::string& name, const
     if (const std::string path = folder + (open ? "" : "/") + name; files.exists(path)) return path;
   }
   return {};
+}
+
+std::string searched_folders(const std::string& beside, const std::vector<std::string>& search_paths) {
+  std::vector<std::string> folders{folder_of(beside)};
+  for (const std::string& folder : search_paths) {
+    if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
+  }
+  for (std::string& folder : folders) {
+    if (folder.empty()) folder = "the current folder";
+  }
+  return join(folders);
 }
 
 }  // namespace norrsken

@@ -217,10 +217,8 @@ std::string Parameters::file(std::string_view name) {
   const std::string& value = std::get<std::string>(property->value);
   const std::string path = resolve_file(files_, value, property->location.file, description_.search_paths);
   if (!path.empty()) return path;
-  const std::string folder = folder_of(property->location.file);
-  std::vector<std::string> folders{folder.empty() ? "the current folder" : folder};
-  folders.insert(folders.end(), description_.search_paths.begin(), description_.search_paths.end());
-  error(name, fmt::format("there is no file {}", quoted(value, 200)), "a file in " + join(folders));
+  error(name, fmt::format("there is no file {}", quoted(value, 200)),
+        "a file in " + searched_folders(property->location.file, description_.search_paths));
   return {};
 }
 

@@ -72,8 +72,7 @@ bool drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
   const std::size_t dropped = before - mesh.triangles.size();
   if (mesh.triangles.empty()) {
     p.error(p.has("filename") ? "filename" : "to_world",
-            before == 0 ? "the mesh has no triangles"
-                        : fmt::format("none of the shape's {} triangles has an area", before));
+            before == 0 ? "the mesh has no triangles" : "no triangle of the shape has an area");
     return false;
   }
   if (dropped != 0) {

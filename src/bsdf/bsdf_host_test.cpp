@@ -1,0 +1,132 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "compile/compile_testing.h"
+
+namespace norrsken::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+SurfaceRecord surface_of(const Compiled& compiled) { return compiled.tables().surfaces.at(0); }
+
+std::vector<float> parameters_of(const Compiled& compiled, MaterialWord word) {
+  const auto first = compiled.tables().bsdf_parameters.begin() + (word & kMaterialOffsetMask);
+  return {first, first + 3};
+}
+
+TEST(DiffuseHost, StoresItsReflectanceAndHasABlackBack) {
+  const Compiled c = compile_bsdf(R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.1, 0.25, 1"/></bsdf>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(material_kind(surface_of(c).material_front), BsdfKind::diffuse);
+  EXPECT_EQ(surface_of(c).material_back, make_material(BsdfKind::absorb, 0));
+  EXPECT_THAT(parameters_of(c, surface_of(c).material_front), ElementsAre(0.1f, 0.25f, 1.0f));
+}
+
+TEST(DiffuseHost, ReflectsHalfUnlessTold) {
+  const Compiled c = compile_bsdf(R"(<bsdf type="diffuse"/>)");
+  EXPECT_THAT(parameters_of(c, surface_of(c).material_front), ElementsAre(0.5f, 0.5f, 0.5f));
+}
+
+TEST(DiffuseHost, ReflectanceZeroAbsorbs) {
+  const Compiled c = compile_bsdf(R"(<bsdf type="diffuse"><float name="reflectance" value="0"/></bsdf>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(surface_of(c).material_front, make_material(BsdfKind::absorb, 0));
+  EXPECT_THAT(c.tables().bsdf_parameters, IsEmpty());
+}
+
+TEST(DiffuseHost, RefusesWhatReflectsMoreThanArrives) {
+  EXPECT_THAT(compile_bsdf(R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.5, 1.5, 0"/></bsdf>)").messages(),
+              ElementsAre("error: 'reflectance' is (0.5, 1.5, 0) [components from 0 to 1]"));
+  EXPECT_THAT(compile_bsdf(R"(<bsdf type="diffuse"><string name="reflectance" value="red"/></bsdf>)").messages(),
+              ElementsAre("error: 'reflectance' is a string [rgb, spectrum, float]"));
+}
+
+TEST(DiffuseHost, RefusesUnknownParameters) {
+  EXPECT_THAT(compile_bsdf(R"(<bsdf type="diffuse"><rgb name="reflectence" value="0.5"/></bsdf>)").messages(),
+              ElementsAre("error: unused parameter 'reflectence' of bsdf 'diffuse', did you mean 'reflectance'? "
+                          "[reflectance]"));
+}
+
+TEST(ConductorHost, OfNoMaterialIsAPerfectMirror) {
+  for (const char* inside : {"", R"(<string name="material" value="none"/>)"}) {
+    const Compiled c = compile_bsdf(std::string("<bsdf type=\"conductor\">") + inside + "</bsdf>");
+    ASSERT_THAT(c.messages(), IsEmpty());
+    EXPECT_EQ(material_kind(surface_of(c).material_front), BsdfKind::conductor);
+    EXPECT_EQ(surface_of(c).material_back, make_material(BsdfKind::absorb, 0));
+    EXPECT_THAT(parameters_of(c, surface_of(c).material_front), ElementsAre(1.0f, 1.0f, 1.0f));
+  }
+}
+
+TEST(ConductorHost, TakesASpecularReflectance) {
+  const Compiled c =
+      compile_bsdf(R"(<bsdf type="conductor"><rgb name="specular_reflectance" value="0.9, 0.8, 0.7"/></bsdf>)");
+  EXPECT_THAT(parameters_of(c, surface_of(c).material_front), ElementsAre(0.9f, 0.8f, 0.7f));
+  EXPECT_THAT(
+      compile_bsdf(R"(<bsdf type="conductor"><float name="specular_reflectance" value="2"/></bsdf>)").messages(),
+      ElementsAre("error: 'specular_reflectance' is (2, 2, 2) [components from 0 to 1]"));
+  const Compiled black =
+      compile_bsdf(R"(<bsdf type="conductor"><float name="specular_reflectance" value="0"/></bsdf>)");
+  EXPECT_EQ(surface_of(black).material_front, make_material(BsdfKind::absorb, 0));
+}
+
+TEST(ConductorHost, RefusesMetals) {
+  EXPECT_THAT(compile_bsdf(R"(<bsdf type="conductor"><string name="material" value="Au"/></bsdf>)").messages(),
+              ElementsAre("error: conductor material 'Au' is not supported yet [none]"));
+}
+
+TEST(TwosidedHost, GivesBothSidesTheOneBsdf) {
+  const Compiled c = compile_bsdf(R"(<bsdf type="twosided"><bsdf type="diffuse"/></bsdf>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(material_kind(surface_of(c).material_front), BsdfKind::diffuse);
+  EXPECT_EQ(surface_of(c).material_back, surface_of(c).material_front);
+}
+
+TEST(TwosidedHost, GivesEachSideItsOwn) {
+  const Compiled c = compile_bsdf(R"(<bsdf type="twosided"><bsdf type="diffuse"/><bsdf type="conductor"/></bsdf>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(material_kind(surface_of(c).material_front), BsdfKind::diffuse);
+  EXPECT_EQ(material_kind(surface_of(c).material_back), BsdfKind::conductor);
+}
+
+TEST(TwosidedHost, NeedsOneOrTwo) {
+  const std::string accepted = " [one bsdf for both sides, or one for the front and one for the back]";
+  EXPECT_THAT(compile_bsdf(R"(<bsdf type="twosided"/>)").messages(),
+              ElementsAre("error: bsdf 'twosided' has no bsdf inside" + accepted));
+  EXPECT_THAT(
+      compile_bsdf(
+          R"(<bsdf type="twosided"><bsdf type="diffuse"/><bsdf type="diffuse"/><bsdf type="diffuse"/></bsdf>)")
+          .messages(),
+      ElementsAre("error: bsdf 'twosided' has more than two bsdfs inside" + accepted));
+}
+
+TEST(BsdfHost, NestingHasAnEnd) {
+  std::string bsdf = R"(<bsdf type="diffuse"/>)";
+  for (int i = 0; i < 70; ++i) bsdf = "<bsdf type=\"twosided\">" + bsdf + "</bsdf>";
+  EXPECT_FALSE(compile_bsdf(bsdf).scene);
+}
+
+TEST(BsdfHost, ShapesThatReferToOneBsdfShareItsParameters) {
+  const Compiled c = compile_shape(
+      R"(<bsdf type="diffuse" id="a"/><shape type="sphere"><ref id="a"/></shape><shape type="sphere"><ref id="a"/></shape>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(c.tables().bsdf_parameters.size(), 3u);
+  EXPECT_EQ(c.tables().surfaces.at(0).material_front, c.tables().surfaces.at(1).material_front);
+}
+
+TEST(BsdfHost, AShapeWithoutBsdfIsDiffuseOfAHalf) {
+  const Compiled c = compile_shape(kShape + kShape);
+  EXPECT_EQ(material_kind(surface_of(c).material_front), BsdfKind::diffuse);
+  EXPECT_THAT(c.tables().bsdf_parameters, ElementsAre(0.5f, 0.5f, 0.5f));
+}
+
+TEST(BsdfHost, TellsMisspeltFromMissing) {
+  EXPECT_THAT(compile_bsdf(R"(<bsdf type="difuse"/>)").messages(),
+              ElementsAre("error: unknown bsdf 'difuse', did you mean 'diffuse'? [conductor, diffuse, twosided]"));
+  EXPECT_THAT(compile_bsdf(R"(<bsdf type="roughplastic"/>)").messages(),
+              ElementsAre("error: bsdf 'roughplastic' is not supported yet [conductor, diffuse, twosided]"));
+}
+
+}  // namespace
+}  // namespace norrsken::testing

@@ -1,0 +1,93 @@
+// Scenes as a whole; each plugin has its test beside it.
+#include "compile/compile.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "compile/compile_testing.h"
+
+namespace norrsken::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+TEST(Compile, ASceneNeedsASensorAndAShape) {
+  EXPECT_THAT(compile_elements("").messages(),
+              ElementsAre("error: the scene has no sensor [<sensor type=\"perspective\">]",
+                          "error: the scene has no shape [<shape type=\"...\">]"));
+}
+
+TEST(Compile, WarnsOfASceneWithoutLight) {
+  const Compiled c = compile_elements(kSensor + kShape);
+  EXPECT_TRUE(c.scene);
+  EXPECT_THAT(c.messages(), ElementsAre("warning: the scene has no emitter: its image is black"));
+}
+
+TEST(Compile, TheFirstSensorIsUsed) {
+  const Compiled c = compile_elements(
+      R"(<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="10"/><rfilter type="box"/></film></sensor>)" +
+      kSensor + kShape + kEmitter);
+  EXPECT_EQ(c.tables().film.width, 10);
+  EXPECT_THAT(c.messages(),
+              ElementsAre("warning: only the scene's first sensor is used, this one is left aside"));
+}
+
+TEST(Compile, RefusesWhatDoesNotBelongIntoAScene) {
+  const std::string rest = kSensor + kShape + kEmitter;
+  EXPECT_THAT(compile_elements(rest + R"(<film type="hdrfilm"/>)").messages(),
+              ElementsAre("error: unused film 'hdrfilm' in scene "
+                          "[bsdf, emitter, integrator, sensor, shape]"));
+  EXPECT_THAT(compile_elements(rest + R"(<texture type="bitmap" id="t"/>)").messages(),
+              ElementsAre("error: texture 'bitmap' is not supported yet"));
+  EXPECT_THAT(compile_elements(rest + R"(<integer name="width" value="4"/>)").messages(),
+              ElementsAre("error: unused parameter 'width' of scene [no parameters]"));
+}
+
+TEST(Compile, BsdfsThatNobodyRefersToAreCheckedToo) {
+  EXPECT_THAT(compile_elements(kSensor + kShape + kEmitter + R"(<bsdf type="mask" id="unused"/>)").messages(),
+              ElementsAre("error: bsdf 'mask' is not supported yet [conductor, diffuse, twosided]"));
+}
+
+TEST(Compile, TellsAllThatIsWrongInOneRun) {
+  const Compiled c = compile_elements(R"(
+    <integrator type="pth"/>
+    <sensor type="perspective">
+      <float name="fov" value="360"/>
+      <sampler type="independent"><integer name="sample_count" value="0"/></sampler>
+      <film type="hdrfilm"><integer name="width" value="10000000"/><rfilter type="box"/></film>
+    </sensor>
+    <shape type="sphere"><float name="radius" value="-1"/><bsdf type="difuse"/></shape>)");
+  EXPECT_FALSE(c.scene);
+  EXPECT_EQ(c.diagnostics.error_count(), 6);
+}
+
+TEST(Compile, InfoTellsWhatTheSceneContains) {
+  const Compiled c = compile_elements(
+      R"(<default name="n" value="3"/><integrator type="path"><integer name="max_depth" value="$n"/></integrator>)" +
+      kSensor + R"(<bsdf type="diffuse" id="white"/><shape type="rectangle" id="floor"><ref id="white"/>)"
+      R"(<emitter type="area"/></shape><shape type="sphere" id="ball"/>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const SceneInfo& info = c.info();
+  EXPECT_EQ(info.triangles, 2u);
+  EXPECT_EQ(info.spheres, 1u);
+  EXPECT_EQ(info.lights, 1u);
+  EXPECT_EQ(info.max_depth, 3);
+  EXPECT_EQ(info.rr_depth, 5);
+  EXPECT_EQ(info.emitter_samples, 1);
+  EXPECT_THAT(info.parameters, ElementsAre(std::pair<std::string, std::string>("n", "3")));
+  EXPECT_GT(info.table_bytes, 3 * sizeof(SurfaceRecord));
+  EXPECT_LT(info.table_bytes, 1000u);
+  const auto item = [&](const std::string& id) {
+    for (const auto& candidate : info.items) {
+      if (candidate.id == id) return candidate.kind + " " + candidate.plugin + ": " + candidate.detail;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(item("white"), "bsdf diffuse: reflectance 0.5 0.5 0.5");
+  EXPECT_EQ(item("floor"), "shape rectangle: 2 triangles");
+  EXPECT_EQ(item("ball"), "shape sphere: radius 1");
+}
+
+}  // namespace
+}  // namespace norrsken::testing

@@ -1,0 +1,94 @@
+#include "light/light_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace norrsken {
+namespace {
+
+std::vector<LightRecord> points(const std::vector<float>& intensities) {
+  std::vector<LightRecord> lights;
+  for (const float intensity : intensities) {
+    LightRecord light{};
+    light.kind = LightKind::point;
+    for (float& channel : light.emission) channel = intensity;
+    lights.push_back(light);
+  }
+  return lights;
+}
+
+/// The probability that the table gives to each light: its own share of its column and what others lend it.
+std::vector<double> probabilities_of_table(const std::vector<LightRecord>& lights) {
+  std::vector<double> result(lights.size(), 0.0);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    EXPECT_GE(lights[i].alias_prob, 0);
+    EXPECT_LE(lights[i].alias_prob, 1);
+    result[i] += lights[i].alias_prob;
+    result.at(lights[i].alias) += 1 - double{lights[i].alias_prob};
+  }
+  for (double& p : result) p /= static_cast<double>(lights.size());
+  return result;
+}
+
+void expect_proportional(const std::vector<float>& powers) {
+  auto lights = points(powers);
+  choose_lights_by_power(lights);
+  double total = 0, prob_total = 0;
+  for (const float power : powers) total += power;
+  const auto table = probabilities_of_table(lights);
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    EXPECT_NEAR(lights[i].prob, powers[i] / total, 1e-7) << i;
+    EXPECT_NEAR(table[i], powers[i] / total, 1e-7) << i;
+    prob_total += lights[i].prob;
+  }
+  EXPECT_NEAR(prob_total, 1, 1e-5);
+}
+
+TEST(LightChoice, TableAndProbabilitiesAreProportionalToPower) {
+  expect_proportional({7});
+  expect_proportional({1, 1, 1});
+  expect_proportional({1, 2, 3, 4});
+  expect_proportional({1000, 1, 1, 1, 1});
+  expect_proportional({0, 0, 5, 0, 1});
+  std::mt19937 random(1);
+  std::vector<float> many(1000);
+  for (float& power : many) power = std::exp(std::normal_distribution<float>(0, 3)(random));
+  expect_proportional(many);
+}
+
+TEST(LightChoice, LightsWithoutPowerAreNeverChosen) {
+  auto lights = points({0, 3, 0, 1e-3f, 0});
+  choose_lights_by_power(lights);
+  for (const std::size_t i : {0u, 2u, 4u}) {
+    EXPECT_EQ(lights[i].prob, 0);
+    EXPECT_EQ(probabilities_of_table(lights)[i], 0);
+  }
+}
+
+TEST(LightChoice, WithoutAnyPowerAllAreAlike) {
+  auto lights = points({0, 0, 0, 0});
+  choose_lights_by_power(lights);
+  for (const LightRecord& light : lights) EXPECT_EQ(light.prob, 0.25f);
+  for (const double p : probabilities_of_table(lights)) EXPECT_EQ(p, 0.25);
+}
+
+TEST(LightChoice, NoLightsAreNoTrouble) { choose_lights_by_power({}); }
+
+TEST(LightPower, IsLuminanceTimesAreaTimesSolidAngle) {
+  LightRecord light{};
+  light.kind = LightKind::parallelogram;
+  light.area = 4;
+  for (float& channel : light.emission) channel = 10;
+  EXPECT_NEAR(light_power(light), 40 * std::numbers::pi, 1e-9);
+  light.kind = LightKind::point;
+  EXPECT_NEAR(light_power(light), 40 * std::numbers::pi, 1e-9);
+  light.emission[0] = light.emission[2] = 0;
+  EXPECT_NEAR(light_power(light) / (40 * std::numbers::pi), 0.7152, 1e-4);
+}
+
+}  // namespace
+}  // namespace norrsken

@@ -1,0 +1,202 @@
+#include "shape/mesh_host.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "compile/compile_testing.h"
+
+namespace norrsken::testing {
+namespace {
+
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::FloatNear;
+using ::testing::IsEmpty;
+using ::testing::Pointwise;
+
+std::string mesh(const std::string& file, const std::string& inside = "") {
+  return "<shape type=\"" + file.substr(file.size() - 3) + "\"><string name=\"filename\" value=\"" + file + "\"/>" +
+         inside + "</shape>";
+}
+std::string boolean(const std::string& name, const std::string& value) {
+  return "<boolean name=\"" + name + "\" value=\"" + value + "\"/>";
+}
+std::string transform(const std::string& inside) {
+  return "<transform name=\"to_world\">" + inside + "</transform>";
+}
+
+std::vector<float> plane(const Compiled& c, std::size_t triangle) {
+  const auto& g = c.tables().surfaces.at(triangle).geometry;
+  return {g[0], g[1], g[2], g[3]};
+}
+
+/// A triangle in the plane z = 2, facing up.
+const std::string kTriangle = "v 0 0 2\nv 1 0 2\nv 0 1 2\nf 1 2 3\n";
+/// Two walls of a right angle that share an edge and its vertices: the floor z = 0 and the wall x = 0.
+const std::string kCorner = "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 0 1\nv 0 1 1\nf 1 3 4 2\nf 1 2 6 5\n";
+
+TEST(MeshShape, ReadsObj) {
+  const Compiled c = compile_shape(mesh("a.obj"), {{"a.obj", kTriangle}});
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(c.tables().triangle_count(), 1u);
+  EXPECT_THAT(plane(c, 0), ElementsAre(0, 0, 1, 2));
+}
+
+TEST(MeshShape, ReadsPly) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 2\n1 0 2\n0 1 2\n3 0 1 2\n";
+  const Compiled c = compile_shape(mesh("a.ply"), {{"a.ply", ply}});
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(c.tables().triangle_count(), 1u);
+  EXPECT_THAT(plane(c, 0), ElementsAre(0, 0, 1, 2));
+}
+
+TEST(MeshShape, FlipsTextureCoordinatesOfObjOnlyUnlessTold) {
+  const std::string obj = "v 0 0 2\nv 1 0 2\nv 0 1 2\nvt 0 0.25\nf 1/1 2/1 3/1\n";
+  EXPECT_FLOAT_EQ(compile_shape(mesh("a.obj"), {{"a.obj", obj}}).tables().texcoords.at(1), 0.75f);
+  EXPECT_FLOAT_EQ(
+      compile_shape(mesh("a.obj", boolean("flip_tex_coords", "false")), {{"a.obj", obj}}).tables().texcoords.at(1),
+      0.25f);
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float u\nproperty float v\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 2 0 0.25\n1 0 2 0 0.25\n0 1 2 0 0.25\n3 0 1 2\n";
+  EXPECT_FLOAT_EQ(compile_shape(mesh("a.ply"), {{"a.ply", ply}}).tables().texcoords.at(1), 0.25f);
+  EXPECT_FLOAT_EQ(
+      compile_shape(mesh("a.ply", boolean("flip_tex_coords", "true")), {{"a.ply", ply}}).tables().texcoords.at(1),
+      0.75f);
+}
+
+TEST(MeshShape, IsPlaced) {
+  const Compiled c = compile_shape(mesh("a.obj", transform(R"(<rotate x="1" angle="180"/><translate y="5"/>)")),
+                                   {{"a.obj", kTriangle}});
+  EXPECT_THAT(plane(c, 0), Pointwise(FloatNear(1e-6f), {0.0f, 0.0f, -1.0f, 2.0f}));
+  EXPECT_NEAR(c.info().bounds_max[1], 5, 1e-6);
+}
+
+TEST(MeshShape, SharedVerticesAreSmoothAndSeparateOnesAreNot) {
+  const Compiled smooth = compile_shape(mesh("a.obj"), {{"a.obj", kCorner}});
+  ASSERT_THAT(smooth.messages(), IsEmpty());
+  EXPECT_EQ(smooth.tables().shapes.at(0).smooth, 1u);
+  ASSERT_EQ(smooth.tables().normals.size(), smooth.tables().positions.size());
+
+  // The same with vertices of its own for each wall.
+  const std::string apart =
+      "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\nf 1 3 4 2\nf 5 6 8 7\n";
+  const Compiled flat = compile_shape(mesh("a.obj"), {{"a.obj", apart}});
+  ASSERT_THAT(flat.messages(), IsEmpty());
+  EXPECT_EQ(flat.tables().shapes.at(0).smooth, 0u);
+  EXPECT_THAT(flat.tables().normals, IsEmpty());
+}
+
+TEST(MeshShape, FaceNormalsAreFlat) {
+  const Compiled c = compile_shape(mesh("a.obj", boolean("face_normals", "true")), {{"a.obj", kCorner}});
+  EXPECT_EQ(c.tables().shapes.at(0).smooth, 0u);
+  EXPECT_THAT(c.tables().normals, IsEmpty());
+}
+
+TEST(MeshShape, NormalsAreWeighedWithAngles) {
+  // Vertex 1 has a whole corner of 90 degrees of each wall, however the quads are split: its normal is the bisector.
+  const Compiled c = compile_shape(mesh("a.obj"), {{"a.obj", kCorner}});
+  const SceneTables& t = c.tables();
+  int found = 0;
+  for (std::size_t v = 0; v < t.positions.size() / 3; ++v) {
+    if (t.positions[3 * v] != 0 || t.positions[3 * v + 2] != 0) continue;
+    const float half = std::sqrt(0.5f);
+    EXPECT_THAT(std::vector(&t.normals[3 * v], &t.normals[3 * v] + 3), Pointwise(FloatNear(1e-6f), {half, 0.0f, half}));
+    ++found;
+  }
+  EXPECT_EQ(found, 2);
+}
+
+TEST(MeshShape, OwnNormalsAreTakenThroughTheInverseTranspose) {
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 1\nf 1//1 2//1 3//1\n";
+  const Compiled c = compile_shape(mesh("a.obj", transform(R"(<scale x="2"/>)")), {{"a.obj", obj}});
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(c.tables().shapes.at(0).smooth, 1u);
+  const float length = std::sqrt(1.25f);
+  EXPECT_THAT(std::vector(c.tables().normals.begin(), c.tables().normals.begin() + 3),
+              Pointwise(FloatNear(1e-6f), {0.5f / length, 0.0f, 1 / length}));
+}
+
+TEST(MeshShape, WindingFollowsTheFilesNormals) {
+  const std::string up = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n";
+  const std::string contrary = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n";
+  const std::string mirror = transform(R"(<scale x="-1"/>)");
+  EXPECT_THAT(plane(compile_shape(mesh("a.obj"), {{"a.obj", up}}), 0), ElementsAre(0, 0, 1, 0));
+  EXPECT_THAT(plane(compile_shape(mesh("a.obj"), {{"a.obj", contrary}}), 0), ElementsAre(0, 0, -1, 0));
+  EXPECT_THAT(plane(compile_shape(mesh("a.obj", mirror), {{"a.obj", up}}), 0), ElementsAre(0, 0, 1, 0));
+}
+
+TEST(MeshShape, MirroredWithoutNormalsItIsInsideOut) {
+  EXPECT_THAT(plane(compile_shape(mesh("a.obj", transform(R"(<scale x="-1"/>)")), {{"a.obj", kTriangle}}), 0),
+              ElementsAre(0, 0, -1, -2));
+}
+
+TEST(MeshShape, IsFlippedWithItsNormals) {
+  const Compiled flat = compile_shape(mesh("a.obj", boolean("flip_normals", "true")), {{"a.obj", kTriangle}});
+  EXPECT_THAT(plane(flat, 0), ElementsAre(0, 0, -1, -2));
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 1\nf 1//1 2//1 3//1\n";
+  const Compiled smooth = compile_shape(mesh("a.obj", boolean("flip_normals", "true")), {{"a.obj", obj}});
+  EXPECT_THAT(plane(smooth, 0), ElementsAre(0, 0, -1, 0));
+  EXPECT_NEAR(smooth.tables().normals.at(0), -std::sqrt(0.5f), 1e-6f);
+  EXPECT_NEAR(smooth.tables().normals.at(2), -std::sqrt(0.5f), 1e-6f);
+}
+
+TEST(MeshShape, SmoothAndFlatShapesShareTheNormalsArray) {
+  const Compiled c = compile_shape(mesh("b.obj") + mesh("a.obj") + R"(<shape type="rectangle"/>)",
+                                   {{"a.obj", kCorner}, {"b.obj", kTriangle}});
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const SceneTables& t = c.tables();
+  EXPECT_EQ(t.normals.size(), t.positions.size());
+  EXPECT_EQ(t.texcoords.size() / 2, t.positions.size() / 3);
+  EXPECT_THAT(std::vector(t.normals.begin(), t.normals.begin() + 9), Each(0.0f));
+  // The rectangle came last and is the only one with texture coordinates.
+  EXPECT_THAT(std::vector(t.texcoords.end() - 8, t.texcoords.end()), ElementsAre(0, 0, 1, 0, 1, 1, 0, 1));
+}
+
+TEST(MeshShape, DropsTrianglesWithoutAnArea) {
+  const std::string some = kTriangle + "v 2 0 2\nf 1 2 4\nf 1 1 2\n";
+  const Compiled c = compile_shape(mesh("a.obj"), {{"a.obj", some}});
+  EXPECT_EQ(c.tables().triangle_count(), 1u);
+  EXPECT_THAT(c.messages(), ElementsAre("warning: 2 of 3 triangles have no area and are left out"));
+  const Compiled all = compile_shape(mesh("a.obj"), {{"a.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n"}});
+  EXPECT_THAT(all.messages(), ElementsAre("error: no triangle of the shape has an area"));
+}
+
+TEST(MeshShape, RefusesVerticesFarBeyondTheScene) {
+  EXPECT_THAT(compile_shape(mesh("a.obj", transform(R"(<scale value="1e12"/>)")),
+                            {{"a.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1e9 0\nf 1 2 3\n"}})
+                  .messages(),
+              ElementsAre("error: a vertex is at (1e+21, 0, 0) [coordinates from -1000000000000000 to 1000000000000000]"));
+}
+
+TEST(MeshShape, NeedsItsFile) {
+  EXPECT_THAT(compile_shape(R"(<shape type="obj"/>)").messages(),
+              ElementsAre("error: shape 'obj' needs a parameter 'filename' [<string name=\"filename\" value=\"...\"/>]"));
+  const auto missing = compile_shape(mesh("b.obj"), {{"a.obj", kTriangle}}).messages();
+  ASSERT_EQ(missing.size(), 1u);
+  EXPECT_THAT(missing[0], ::testing::StartsWith("error: there is no file 'b.obj' [a file in "));
+  EXPECT_THAT(compile_shape(mesh("folder.obj"), {{"folder.obj/a", ""}}).messages(),
+              ElementsAre("error: cannot read 'folder.obj': is a folder"));
+}
+
+TEST(ComputeNormals, CancellingFacesLeaveNoNormal) {
+  MeshData sheet;
+  sheet.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 1}};
+  compute_normals(sheet);
+  EXPECT_THAT(sheet.normals, Each(std::array<float, 3>{0, 0, 0}));
+}
+
+TEST(MeshShape, VerticesWithoutAnyNormalTakeThatOfAFace) {
+  const Compiled c = compile_shape(mesh("a.obj"), {{"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n"}});
+  ASSERT_EQ(c.tables().normals.size(), 9u);
+  EXPECT_THAT(c.tables().normals, ElementsAre(0, 0, 1, 0, 0, 1, 0, 0, 1));
+}
+
+}  // namespace
+}  // namespace norrsken::testing

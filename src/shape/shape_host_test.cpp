@@ -1,0 +1,148 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "compile/compile_testing.h"
+
+namespace norrsken::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::FloatEq;
+using ::testing::FloatNear;
+using ::testing::IsEmpty;
+using ::testing::Pointwise;
+
+std::string transform(const std::string& inside) {
+  return "<transform name=\"to_world\">" + inside + "</transform>";
+}
+std::string rectangle(const std::string& inside) { return "<shape type=\"rectangle\">" + inside + "</shape>"; }
+std::string sphere(const std::string& inside) { return "<shape type=\"sphere\">" + inside + "</shape>"; }
+
+/// Unit normal and n.p of a triangle.
+std::vector<float> plane(const Compiled& c, std::size_t triangle) {
+  const auto& g = c.tables().surfaces.at(triangle).geometry;
+  return {g[0], g[1], g[2], g[3]};
+}
+std::vector<float> sphere_of(const Compiled& c) { return plane(c, 0); }
+
+TEST(Rectangle, IsTheSquareThatFacesZ) {
+  const Compiled c = compile_shape(rectangle(""));
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(c.tables().triangle_count(), 2u);
+  EXPECT_EQ(c.tables().sphere_count(), 0u);
+  EXPECT_THAT(plane(c, 0), ElementsAre(0, 0, 1, 0));
+  EXPECT_THAT(plane(c, 1), ElementsAre(0, 0, 1, 0));
+  EXPECT_THAT(c.tables().positions, ElementsAre(-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0));
+  EXPECT_THAT(c.tables().texcoords, ElementsAre(0, 0, 1, 0, 1, 1, 0, 1));
+  EXPECT_THAT(c.tables().normals, IsEmpty());
+  EXPECT_THAT(c.info().bounds_min, ElementsAre(-1, -1, 0));
+  EXPECT_THAT(c.info().bounds_max, ElementsAre(1, 1, 0));
+}
+
+TEST(Rectangle, IsPlacedAndFlipped) {
+  const Compiled placed = compile_shape(rectangle(transform(R"(<scale value="3"/><translate z="2"/>)")));
+  EXPECT_THAT(plane(placed, 0), ElementsAre(0, 0, 1, 2));
+  EXPECT_THAT(placed.tables().positions, ElementsAre(-3, -3, 2, 3, -3, 2, 3, 3, 2, -3, 3, 2));
+  const Compiled flipped = compile_shape(rectangle(R"(<boolean name="flip_normals" value="true"/>)"));
+  EXPECT_THAT(plane(flipped, 0), ElementsAre(0, 0, -1, 0));
+  EXPECT_THAT(plane(flipped, 1), ElementsAre(0, 0, -1, 0));
+}
+
+TEST(Rectangle, MirroredInItsPlaneItFacesTheSameWay) {
+  EXPECT_THAT(plane(compile_shape(rectangle(transform(R"(<scale x="-1"/>)"))), 0), ElementsAre(0, 0, 1, 0));
+  EXPECT_THAT(plane(compile_shape(rectangle(transform(R"(<scale z="-1"/>)"))), 0), ElementsAre(0, 0, -1, 0));
+}
+
+TEST(Rectangle, RefusesPlacementsThatFlattenIt) {
+  EXPECT_THAT(compile_shape(rectangle(transform(R"(<scale x="0"/>)"))).messages(),
+              ElementsAre("error: 'to_world' cannot be inverted [scale factors other than 0]"));
+  EXPECT_THAT(compile_shape(rectangle(transform(R"(<scale value="1e-25"/>)"))).messages(),
+              ElementsAre("error: no triangle of the shape has an area"));
+  EXPECT_FALSE(compile_shape(rectangle(transform(R"(<scale value="1e18"/>)"))).scene);
+}
+
+TEST(Sphere, HasCentreAndRadius) {
+  const Compiled standard = compile_shape(sphere(""));
+  ASSERT_THAT(standard.messages(), IsEmpty());
+  EXPECT_THAT(sphere_of(standard), ElementsAre(0, 0, 0, 1));
+  const Compiled c =
+      compile_shape(sphere(R"(<point name="center" x="7" y="-2.5" z="-2"/><float name="radius" value="1.5"/>)"));
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_THAT(sphere_of(c), ElementsAre(7, -2.5f, -2, 1.5f));
+  EXPECT_EQ(c.tables().sphere_count(), 1u);
+  EXPECT_EQ(c.tables().shapes.at(0).flip_normals, 0u);
+  EXPECT_THAT(c.info().bounds_min, ElementsAre(5.5, -4, -3.5));
+  EXPECT_THAT(c.info().bounds_max, ElementsAre(8.5, -1, -0.5));
+}
+
+TEST(Sphere, IsPlacedByUniformScales) {
+  const Compiled c = compile_shape(sphere(
+      R"(<point name="center" x="1" y="0" z="0"/><float name="radius" value="0.5"/>)" +
+      transform(R"(<rotate z="1" angle="90"/><scale value="4"/><translate x="10"/>)")));
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_THAT(sphere_of(c), Pointwise(FloatNear(1e-5f), {10.0f, 4.0f, 0.0f, 2.0f}));
+}
+
+TEST(Sphere, RefusesScalesThatMakeAnEllipsoid) {
+  const std::string expected = "error: 'to_world' does not scale the sphere alike in all directions "
+                               "[translations, rotations and scales with one value]";
+  EXPECT_THAT(compile_shape(sphere(transform(R"(<scale x="2"/>)"))).messages(), ElementsAre(expected));
+  EXPECT_THAT(compile_shape(sphere(transform(R"(<matrix value="1 0.5 0 0  0 1 0 0  0 0 1 0  0 0 0 1"/>)"))).messages(),
+              ElementsAre(expected));
+}
+
+TEST(Sphere, TurnsItsNormalInwards) {
+  const std::string flip = R"(<boolean name="flip_normals" value="true"/>)";
+  const std::string mirror = transform(R"(<scale x="-1"/>)");
+  EXPECT_EQ(compile_shape(sphere(flip)).tables().shapes.at(0).flip_normals, 1u);
+  EXPECT_EQ(compile_shape(sphere(mirror)).tables().shapes.at(0).flip_normals, 1u);
+  EXPECT_EQ(compile_shape(sphere(flip + mirror)).tables().shapes.at(0).flip_normals, 0u);
+}
+
+TEST(Sphere, RefusesRadiiThatMakeNoSphere) {
+  EXPECT_THAT(compile_shape(sphere(R"(<float name="radius" value="0"/>)")).messages(),
+              ElementsAre("error: 'radius' is 0 [a number above 0]"));
+  EXPECT_THAT(compile_shape(sphere(R"(<float name="radius" value="-1"/>)")).messages(),
+              ElementsAre("error: 'radius' is -1 [a number from 0 to 1000000000000000]"));
+  EXPECT_THAT(compile_shape(sphere(R"(<float name="radius" value="1e-60"/>)")).messages(),
+              ElementsAre("error: the sphere's radius of 1e-60 is too small to be told from 0"));
+  EXPECT_FALSE(compile_shape(sphere(R"(<float name="radius" value="1e10"/>)" +
+                                    transform(R"(<scale value="1e10"/>)"))).scene);
+  EXPECT_THAT(compile_shape(sphere(R"(<float name="center" value="1"/>)")).messages(),
+              ElementsAre("error: 'center' is a float [point, vector]"));
+}
+
+TEST(ShapeHost, SpheresFollowTriangles) {
+  const Compiled c = compile_shape(sphere("") + rectangle("") + sphere(R"(<float name="radius" value="2"/>)"));
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const SceneTables& t = c.tables();
+  ASSERT_EQ(t.surfaces.size(), 4u);
+  ASSERT_EQ(t.shapes.size(), 3u);
+  EXPECT_EQ(t.shapes[0].first_primitive, 2u);
+  EXPECT_EQ(t.shapes[1].first_primitive, 0u);
+  EXPECT_EQ(t.shapes[2].first_primitive, 3u);
+  EXPECT_THAT((std::vector{t.shapes[0].primitive_count, t.shapes[1].primitive_count, t.shapes[2].primitive_count}),
+              ElementsAre(1u, 2u, 1u));
+  for (std::uint32_t shape = 0; shape < 3; ++shape) {
+    for (std::uint32_t i = 0; i < t.shapes[shape].primitive_count; ++i) {
+      EXPECT_EQ(t.surfaces[t.shapes[shape].first_primitive + i].shape, shape);
+    }
+  }
+  EXPECT_EQ(t.surfaces[3].geometry[3], 2.0f);
+}
+
+TEST(ShapeHost, RefusesWhatDoesNotBelongIntoAShape) {
+  EXPECT_THAT(compile_shape(sphere(sphere(""))).messages(),
+              ElementsAre("error: unused shape 'sphere' in shape 'sphere' [bsdf, emitter]"));
+  EXPECT_THAT(compile_shape(sphere(R"(<medium type="homogeneous" name="interior"/>)")).messages(),
+              ElementsAre("error: medium 'homogeneous' is not supported yet"));
+  EXPECT_THAT(compile_shape(sphere(R"(<bsdf type="diffuse"/><bsdf type="diffuse"/>)")).messages(),
+              ElementsAre("error: shape 'sphere' has more than one bsdf [one bsdf]"));
+  EXPECT_THAT(compile_shape(R"(<shape type="cube"/>)").messages(),
+              ElementsAre("error: shape 'cube' is not supported yet [obj, ply, rectangle, sphere]"));
+  EXPECT_THAT(compile_shape(R"(<shape type="sfere"/>)").messages(),
+              ElementsAre("error: unknown shape 'sfere', did you mean 'sphere'? [obj, ply, rectangle, sphere]"));
+}
+
+}  // namespace
+}  // namespace norrsken::testing
