@@ -84,6 +84,26 @@ TEST_F(AtomicFileTest, TwoWritersOfOneNameDoNotMix) {
   EXPECT_EQ(files(), 1);
 }
 
+// Whoever may write to the folder could guess the next temporary name and put a link to another file there.
+TEST_F(AtomicFileTest, NeverWritesThroughAnExistingName) {
+  put("victim", "old");
+  AtomicFile first;
+  ASSERT_TRUE(first.create(path("a.png")));
+  std::string name;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (entry.path().filename() != "victim") name = entry.path().filename().string();
+  }
+  const std::size_t number_at = name.rfind('-') + 1;
+  const int number = std::stoi(name.substr(number_at));
+  fs::create_symlink("victim", folder_ / (name.substr(0, number_at) + std::to_string(number + 1) + ".png"));
+  AtomicFile second;
+  ASSERT_TRUE(second.create(path("a.png")));
+  second.write("new", 3);
+  EXPECT_TRUE(second.commit());
+  EXPECT_EQ(text_of("victim"), "old");
+  EXPECT_EQ(text_of("a.png"), "new");
+}
+
 // A limit on the size of files stands for a full disk: the write fails in the kernel.
 TEST_F(AtomicFileTest, KeepsTheOldFileWhenTheDiskIsFull) {
   put("a.png", "old");
