@@ -28,6 +28,9 @@ NORRSKEN_INLINE Mask& operator|=(Mask& a, Mask b) { return a = a | b; }
 
 NORRSKEN_INLINE bool none(Mask m) { return !any(m); }
 
+/// Stores the active lanes one behind the other, at any alignment; up to kLanes values behind p may be overwritten.
+NORRSKEN_INLINE void compress_store(float* p, UInt a, const Compaction& c) { compress_store(p, from_bits(a), c); }
+
 /// a where m, zero elsewhere.
 NORRSKEN_INLINE Float zero_unless(Mask m, Float a) { return select(m, a, Float(0.0f)); }
 

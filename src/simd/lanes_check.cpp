@@ -54,7 +54,7 @@ void check_all_masks(LaneReport& report) {
     }
 
     for (float& value : out) value = -7.0f;
-    compress_store(out + 1, load(a), m);
+    compress_store(out + 1, load(a), make_compaction(m));
     int at = 1;
     for (int i = 0; i < kLanes; ++i) {
       if (((pattern >> i) & 1u) == 0) continue;

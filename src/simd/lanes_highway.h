@@ -110,11 +110,67 @@ NORRSKEN_INLINE Float load(const float* p) { return hn::Load(FloatTag(), p); }
 NORRSKEN_INLINE UInt load_uint(const float* p) { return bits(load(p)); }
 NORRSKEN_INLINE void store(float* p, Float a) { hn::Store(a.v, FloatTag(), p); }
 NORRSKEN_INLINE void store(float* p, UInt a) { store(p, from_bits(a)); }
-/// Stores the active lanes one behind the other, at any alignment; up to kLanes values behind p may be overwritten.
-NORRSKEN_INLINE void compress_store(float* p, Float a, Mask m) {
-  hn::StoreU(hn::Compress(a.v, m.v), FloatTag(), p);
+/// Where the active lanes go when they are moved together: computed once for all values of a record. Highway's own
+/// Compress looks its tables up anew for every value, and GCC 12 copies them to the stack each time.
+struct Compaction {
+#if NORRSKEN_LANES == 16
+  Mask mask;
+#else
+  hn::Vec<UIntTag> order;  ///< 8 lanes: lane indices; 4 lanes: byte indices
+#endif
+  std::uint32_t count;
+};
+
+#if NORRSKEN_LANES == 16
+
+NORRSKEN_INLINE Compaction make_compaction(Mask m) { return {m, count(m)}; }
+NORRSKEN_INLINE void compress_store(float* p, Float a, const Compaction& c) {
+  hn::StoreU(hn::Compress(a.v, c.mask.v), FloatTag(), p);
 }
-NORRSKEN_INLINE void compress_store(float* p, UInt a, Mask m) { compress_store(p, from_bits(a), m); }
+
+#else
+
+/// Row m: the set bits of m in ascending order, then zeros; as lane indices (8 lanes) or as the
+/// indices of the lanes' four bytes.
+struct CompactionTable {
+  static constexpr int kRowBytes = kLanes == 8 ? 8 : 16;
+  alignas(16) std::uint8_t rows[1 << kLanes][kRowBytes] = {};
+  constexpr CompactionTable() {
+    for (int m = 0; m < (1 << kLanes); ++m) {
+      int at = 0;
+      for (int lane = 0; lane < kLanes; ++lane) {
+        if (((m >> lane) & 1) == 0) continue;
+        if (kLanes == 8) {
+          rows[m][at++] = static_cast<std::uint8_t>(lane);
+        } else {
+          for (int byte = 0; byte < 4; ++byte) rows[m][at++] = static_cast<std::uint8_t>(4 * lane + byte);
+        }
+      }
+    }
+  }
+};
+static constexpr CompactionTable kCompactionTable;
+
+NORRSKEN_INLINE Compaction make_compaction(Mask m) {
+  const std::uint8_t* row = kCompactionTable.rows[to_bits(m)];
+#if NORRSKEN_LANES == 8
+  return {hn::PromoteTo(UIntTag(), hn::Load(hn::FixedTag<std::uint8_t, 8>(), row)), count(m)};
+#else
+  return {hn::BitCast(UIntTag(), hn::Load(hn::FixedTag<std::uint8_t, 16>(), row)), count(m)};
+#endif
+}
+NORRSKEN_INLINE void compress_store(float* p, Float a, const Compaction& c) {
+#if NORRSKEN_LANES == 8
+  hn::StoreU(hn::TableLookupLanes(a.v, hn::IndicesFromVec(FloatTag(), c.order)), FloatTag(), p);
+#else
+  const hn::FixedTag<std::uint8_t, 16> bytes;
+  const auto moved = hn::TableLookupBytes(hn::BitCast(bytes, a.v), hn::BitCast(bytes, c.order));
+  hn::StoreU(hn::BitCast(FloatTag(), moved), FloatTag(), p);
+#endif
+}
+
+#endif
+
 /// base[index] in the active lanes; the others read base[0].
 NORRSKEN_INLINE Float gather(const float* base, UInt index, Mask m) {
   const auto safe = hn::IfThenElseZero(hn::RebindMask(UIntTag(), m.v), index.v);

@@ -99,12 +99,13 @@ NORRSKEN_INLINE Float load(const float* p) { return *p; }
 NORRSKEN_INLINE UInt load_uint(const float* p) { return std::bit_cast<std::uint32_t>(*p); }
 NORRSKEN_INLINE void store(float* p, Float a) { *p = a.v; }
 NORRSKEN_INLINE void store(float* p, UInt a) { *p = std::bit_cast<float>(a.v); }
-/// Stores the active lanes one behind the other; up to kLanes values behind p may be overwritten.
-NORRSKEN_INLINE void compress_store(float* p, Float a, Mask m) {
-  if (m.v) *p = a.v;
-}
-NORRSKEN_INLINE void compress_store(float* p, UInt a, Mask m) {
-  if (m.v) *p = std::bit_cast<float>(a.v);
+struct Compaction {
+  Mask mask;
+  std::uint32_t count;
+};
+NORRSKEN_INLINE Compaction make_compaction(Mask m) { return {m, count(m)}; }
+NORRSKEN_INLINE void compress_store(float* p, Float a, const Compaction& c) {
+  if (c.mask.v) *p = a.v;
 }
 /// base[index] in the active lanes, zero in the others.
 NORRSKEN_INLINE Float gather(const float* base, UInt index, Mask m) { return m.v ? base[index.v] : 0.0f; }

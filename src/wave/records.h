@@ -34,26 +34,27 @@ NORRSKEN_INLINE Vec3f load3(const Queue& q, std::uint32_t first_field, std::uint
   return {load(q.field(first_field) + i), load(q.field(first_field + 1) + i), load(q.field(first_field + 2) + i)};
 }
 NORRSKEN_INLINE void compress_store3(const Queue& q, std::uint32_t first_field, std::uint32_t i, const Vec3f& v,
-                                     Mask m) {
-  compress_store(q.field(first_field) + i, v.x, m);
-  compress_store(q.field(first_field + 1) + i, v.y, m);
-  compress_store(q.field(first_field + 2) + i, v.z, m);
+                                     const Compaction& c) {
+  compress_store(q.field(first_field) + i, v.x, c);
+  compress_store(q.field(first_field + 1) + i, v.y, c);
+  compress_store(q.field(first_field + 2) + i, v.z, c);
 }
 
 NORRSKEN_INLINE Ray load_ray(const Queue& q, std::uint32_t i) {
   return {load3(q, kRayOriginX, i), load3(q, kRayDirectionX, i), load3(q, kRayThroughputRed, i),
           load(q.field(kRayPdf) + i), load_uint(q.field(kRaySlot) + i)};
 }
-NORRSKEN_INLINE void store_ray_fields(const Queue& q, const Ray& r, Mask m) {
-  compress_store3(q, kRayOriginX, q.count, r.origin, m);
-  compress_store3(q, kRayDirectionX, q.count, r.direction, m);
-  compress_store3(q, kRayThroughputRed, q.count, r.throughput, m);
-  compress_store(q.field(kRayPdf) + q.count, r.pdf_sa, m);
-  compress_store(q.field(kRaySlot) + q.count, r.slot, m);
+NORRSKEN_INLINE void store_ray_fields(const Queue& q, const Ray& r, const Compaction& c) {
+  compress_store3(q, kRayOriginX, q.count, r.origin, c);
+  compress_store3(q, kRayDirectionX, q.count, r.direction, c);
+  compress_store3(q, kRayThroughputRed, q.count, r.throughput, c);
+  compress_store(q.field(kRayPdf) + q.count, r.pdf_sa, c);
+  compress_store(q.field(kRaySlot) + q.count, r.slot, c);
 }
 NORRSKEN_INLINE void push(Queue& q, const Ray& r, Mask m) {
-  store_ray_fields(q, r, m);
-  q.count += count(m);
+  const Compaction c = make_compaction(m);
+  store_ray_fields(q, r, c);
+  q.count += c.count;
 }
 
 NORRSKEN_INLINE Hit load_hit(const Queue& q, std::uint32_t i) {
@@ -61,11 +62,12 @@ NORRSKEN_INLINE Hit load_hit(const Queue& q, std::uint32_t i) {
           load_uint(q.field(kHitMaterial) + i)};
 }
 NORRSKEN_INLINE void push(Queue& q, const Hit& h, Mask m) {
-  store_ray_fields(q, h.ray, m);
-  compress_store(q.field(kHitDistance) + q.count, h.t, m);
-  compress_store(q.field(kHitPrimitive) + q.count, h.primitive, m);
-  compress_store(q.field(kHitMaterial) + q.count, h.material, m);
-  q.count += count(m);
+  const Compaction c = make_compaction(m);
+  store_ray_fields(q, h.ray, c);
+  compress_store(q.field(kHitDistance) + q.count, h.t, c);
+  compress_store(q.field(kHitPrimitive) + q.count, h.primitive, c);
+  compress_store(q.field(kHitMaterial) + q.count, h.material, c);
+  q.count += c.count;
 }
 
 NORRSKEN_INLINE ShadowRay load_shadow_ray(const Queue& q, std::uint32_t i) {
@@ -73,12 +75,13 @@ NORRSKEN_INLINE ShadowRay load_shadow_ray(const Queue& q, std::uint32_t i) {
           load3(q, kShadowRed, i), load_uint(q.field(kShadowSlot) + i)};
 }
 NORRSKEN_INLINE void push(Queue& q, const ShadowRay& r, Mask m) {
-  compress_store3(q, kShadowOriginX, q.count, r.origin, m);
-  compress_store3(q, kShadowDirectionX, q.count, r.direction, m);
-  compress_store(q.field(kShadowDistance) + q.count, r.t_max, m);
-  compress_store3(q, kShadowRed, q.count, r.contribution, m);
-  compress_store(q.field(kShadowSlot) + q.count, r.slot, m);
-  q.count += count(m);
+  const Compaction c = make_compaction(m);
+  compress_store3(q, kShadowOriginX, q.count, r.origin, c);
+  compress_store3(q, kShadowDirectionX, q.count, r.direction, c);
+  compress_store(q.field(kShadowDistance) + q.count, r.t_max, c);
+  compress_store3(q, kShadowRed, q.count, r.contribution, c);
+  compress_store(q.field(kShadowSlot) + q.count, r.slot, c);
+  q.count += c.count;
 }
 
 /// Adds to the slots' radiance. One slot may occur in several lanes (several shadow rays of one hit), so the lanes
