@@ -10,6 +10,8 @@ endif()
 add_library(norrsken_options INTERFACE)
 target_compile_options(norrsken_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  # GCC 12 warns wrongly about `"literal" + std::string` (GCC bug 105651).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Results must not depend on what the compiler fuses or reorders: fma is written where it is meant.
   -ffp-contract=off -fno-fast-math)
 if(NORRSKEN_WARNINGS_AS_ERRORS)

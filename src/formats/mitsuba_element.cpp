@@ -48,7 +48,7 @@ Element open_element(const XmlDocument& document, pugi::xml_node node, const Att
     if (element.find(attribute.name)) {
       element.good = false;
       diagnostics.error(document.location(attribute.name_span),
-                        fmt::format("attribute '{}' is given twice", attribute.name));
+                        fmt::format("attribute '{}' is given twice", attribute.name), "each attribute once");
       continue;
     }
     Literal literal{std::string(attribute.name), std::string(attribute.value), &document, attribute.value_span, true};

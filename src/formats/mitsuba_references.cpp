@@ -27,9 +27,9 @@ void drop_empty_children(Node& node) {
 
 bool References::is_free(const std::string& id, const SourceLocation& location) {
   const auto target = targets_.find(id);
-  const auto alias = aliases_.find(id);
-  if (target == targets_.end() && alias == aliases_.end()) return true;
-  const SourceLocation& first = target != targets_.end() ? target->second.location : alias->second.location;
+  const auto alias = alias_index_.find(id);
+  if (target == targets_.end() && alias == alias_index_.end()) return true;
+  const SourceLocation& first = target != targets_.end() ? target->second.location : aliases_[alias->second].location;
   diagnostics_.error(location, fmt::format("the id {} is already used at {}:{}", quoted(id), first.file, first.line),
                      "an id of its own");
   return false;
@@ -41,7 +41,9 @@ void References::name(const std::string& id, std::shared_ptr<const Node> node, c
 
 void References::alias(const std::string& id, const std::string& alias, const SourceLocation& id_location,
                        const SourceLocation& alias_location) {
-  if (is_free(alias, alias_location)) aliases_.emplace(alias, Alias{id, id_location});
+  if (!is_free(alias, alias_location)) return;
+  alias_index_.emplace(alias, aliases_.size());
+  aliases_.push_back({alias, id, id_location});
 }
 
 void References::refer(Node& parent, const std::string& id, std::string name, const SourceLocation& location) {
@@ -53,9 +55,9 @@ std::shared_ptr<const Node> References::find(const std::string& id) const {
   const std::string* current = &id;
   for (int steps = 0; steps <= kMaxAliases; ++steps) {
     if (const auto target = targets_.find(*current); target != targets_.end()) return target->second.node;
-    const auto alias = aliases_.find(*current);
-    if (alias == aliases_.end()) break;
-    current = &alias->second.id;
+    const auto alias = alias_index_.find(*current);
+    if (alias == alias_index_.end()) break;
+    current = &aliases_[alias->second].id;
   }
   return nullptr;
 }
@@ -63,7 +65,9 @@ std::shared_ptr<const Node> References::find(const std::string& id) const {
 std::vector<std::string> References::known() const {
   std::vector<std::string> ids;
   for (const auto& [id, target] : targets_) ids.push_back(id);
-  for (const auto& [id, alias] : aliases_) ids.push_back(id);
+  for (const Alias& alias : aliases_) {
+    if (find(alias.alias)) ids.push_back(alias.alias);
+  }
   std::sort(ids.begin(), ids.end());
   return ids;
 }
@@ -73,7 +77,7 @@ bool References::resolve(const Node& root) {
   std::vector<std::string> listed(ids.begin(),
                                   ids.begin() + static_cast<std::ptrdiff_t>(std::min(ids.size(), kMaxListed)));
   if (listed.size() < ids.size()) listed.emplace_back("...");
-  const std::string accepted = ids.empty() ? "no <ref>: nothing has an id" : join(listed);
+  const std::string accepted = ids.empty() ? "an id of the scene, which has none" : join(listed);
 
   std::unordered_set<std::string> complained;
   const auto complain = [&](const std::string& id, const SourceLocation& location) {
@@ -81,7 +85,7 @@ bool References::resolve(const Node& root) {
     if (complained.insert(id).second && complained.size() <= 100)
       diagnostics_.error(location, fmt::format("nothing has the id {}{}", quoted(id), did_you_mean(id, ids)), accepted);
   };
-  for (const auto& [name, alias] : aliases_) {
+  for (const Alias& alias : aliases_) {
     if (!find(alias.id)) complain(alias.id, alias.location);
   }
   for (const Reference& reference : references_) {

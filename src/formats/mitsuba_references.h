@@ -34,8 +34,8 @@ class References {
     SourceLocation location;
   };
   struct Alias {
-    std::string id;
-    SourceLocation location;
+    std::string alias, id;
+    SourceLocation location;  ///< of the id
   };
   /// A node on the way from the root, and which of its children the way goes on with.
   struct Step {
@@ -58,7 +58,8 @@ class References {
   SourceLocation last_reference(const std::vector<Step>& path) const;
 
   std::unordered_map<std::string, Target> targets_;
-  std::unordered_map<std::string, Alias> aliases_;
+  std::unordered_map<std::string, std::size_t> alias_index_;
+  std::vector<Alias> aliases_;
   std::vector<Reference> references_;
   Diagnostics& diagnostics_;
 };

@@ -39,6 +39,8 @@ class MitsubaReader {
         references_(diagnostics) {}
 
   std::optional<Description> read(const std::string& path) {
+    // What an included file names may also lie beside the top file.
+    context_.search_paths.push_back(folder_of(path));
     auto scene = std::make_shared<Node>();
     scene->kind = "scene";
     // Nodes that could not be read well enough to be used, kept until references are resolved.
@@ -79,7 +81,8 @@ class MitsubaReader {
                  std::string_view what) {
     std::string error;
     auto contents = context_.files.read(path, error);
-    if (!contents) return fail(named_at, fmt::format("cannot read {} {}: {}", what, quoted(path, 200), error));
+    if (!contents)
+      return fail(named_at, fmt::format("cannot read {} {}: {}", what, quoted(path, 200), error), "an XML file");
     xml_bytes_ += contents->size();
     if (xml_bytes_ > kMaxXmlBytes) {
       SourceLocation location;

@@ -14,17 +14,18 @@ class MemoryFiles : public FileSystem {
  public:
   explicit MemoryFiles(std::map<std::string, std::string> files = {}) : files_(std::move(files)) {}
 
-  void add(const std::string& path, std::string contents) { files_[path] = std::move(contents); }
+  void add(const std::string& path, std::string contents) { files_[normal_path(path)] = std::move(contents); }
 
   std::optional<std::string> read(const std::string& path, std::string& error) const override {
-    if (const auto found = files_.find(path); found != files_.end()) return found->second;
+    if (const auto found = files_.find(normal_path(path)); found != files_.end()) return found->second;
     error = exists(path) ? "is a folder" : "no such file";
     return std::nullopt;
   }
 
   bool exists(const std::string& path) const override {
-    if (files_.contains(path)) return true;
-    const std::string folder = path.ends_with('/') ? path : path + "/";
+    std::string folder = normal_path(path);
+    if (files_.contains(folder)) return true;
+    if (!folder.ends_with('/')) folder += '/';
     const auto inside = files_.lower_bound(folder);
     return inside != files_.end() && inside->first.starts_with(folder);
   }
