@@ -95,8 +95,7 @@ TEST(TwosidedHost, NeedsOneOrTwo) {
   EXPECT_THAT(compile_bsdf(R"(<bsdf type="twosided"/>)").messages(),
               ElementsAre("error: bsdf 'twosided' has no bsdf inside" + accepted));
   EXPECT_THAT(
-      compile_bsdf(
-          R"(<bsdf type="twosided"><bsdf type="diffuse"/><bsdf type="diffuse"/><bsdf type="diffuse"/></bsdf>)")
+      compile_bsdf(R"(<bsdf type="twosided"><bsdf type="diffuse"/><bsdf type="diffuse"/><bsdf type="diffuse"/></bsdf>)")
           .messages(),
       ElementsAre("error: bsdf 'twosided' has more than two bsdfs inside" + accepted));
 }

@@ -12,8 +12,8 @@ namespace norrsken {
 
 Material compile_bsdf_diffuse(Parameters& p, Builder& builder) {
   const glm::dvec3 reflectance = p.color("reflectance", glm::dvec3(0.5), 0, 1);
-  builder.describe(p.node(), fmt::format("reflectance {:.3g} {:.3g} {:.3g}", reflectance.r, reflectance.g,
-                                         reflectance.b));
+  builder.describe(p.node(),
+                   fmt::format("reflectance {:.3g} {:.3g} {:.3g}", reflectance.r, reflectance.g, reflectance.b));
   if (reflectance == glm::dvec3(0)) return {};
   return {.front = builder.add_material(BsdfKind::diffuse, {reflectance.r, reflectance.g, reflectance.b})};
 }

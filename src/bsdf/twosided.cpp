@@ -11,10 +11,10 @@ Material compile_bsdf_twosided(Parameters& p, Builder& builder) {
   const auto sides = p.children("bsdf");
   builder.describe(p.node(), {});
   if (sides.empty() || sides.size() > 2) {
-    builder.diagnostics().error(sides.empty() ? p.node().location : sides[2]->location,
-                                sides.empty() ? "bsdf 'twosided' has no bsdf inside"
-                                              : "bsdf 'twosided' has more than two bsdfs inside",
-                                "one bsdf for both sides, or one for the front and one for the back");
+    builder.diagnostics().error(
+        sides.empty() ? p.node().location : sides[2]->location,
+        sides.empty() ? "bsdf 'twosided' has no bsdf inside" : "bsdf 'twosided' has more than two bsdfs inside",
+        "one bsdf for both sides, or one for the front and one for the back");
     return {};
   }
   return {.front = builder.bsdf(*sides.front()->node).front, .back = builder.bsdf(*sides.back()->node).front};

@@ -13,10 +13,11 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 /// A 200 x 100 film, so that no two sides are alike.
-Compiled compile_camera(const std::string& inside, const std::string& width = "200", const std::string& height = "100") {
-  return compile_sensor("<sensor type=\"perspective\">" + inside +
-                        R"(<film type="hdrfilm"><integer name="width" value=")" + width +
-                        R"("/><integer name="height" value=")" + height + R"("/><rfilter type="box"/></film></sensor>)");
+Compiled compile_camera(const std::string& inside, const std::string& width = "200",
+                        const std::string& height = "100") {
+  return compile_sensor(
+      "<sensor type=\"perspective\">" + inside + R"(<film type="hdrfilm"><integer name="width" value=")" + width +
+      R"("/><integer name="height" value=")" + height + R"("/><rfilter type="box"/></film></sensor>)");
 }
 std::string number(const std::string& name, const std::string& value) {
   return "<float name=\"" + name + "\" value=\"" + value + "\"/>";
@@ -123,11 +124,10 @@ TEST(Perspective, HasClipDistances) {
 }
 
 TEST(Perspective, PrincipalPointMovesThePicture) {
-  const CameraRecord camera =
-      compile_camera(number("fov", "90") + number("principal_point_offset_x", "0.25") +
-                     number("principal_point_offset_y", "0.1"))
-          .tables()
-          .camera;
+  const CameraRecord camera = compile_camera(number("fov", "90") + number("principal_point_offset_x", "0.25") +
+                                             number("principal_point_offset_y", "0.1"))
+                                  .tables()
+                                  .camera;
   // What was in the middle is a quarter of the width further left, a tenth of the height further up.
   expect_near(direction(camera, 50, 40), {0, 0, 1});
 }

@@ -98,8 +98,8 @@ FilterKind Builder::rfilter(Parameters& film) {
 /// parameters, except for those it does not know.
 template <class Function>
 auto Builder::compile_chosen(const Node::Child* child, const char* kind, const char* fallback,
-                             const std::optional<std::string>& replacement,
-                             std::span<const Plugin<Function>> table, std::string& plugin_name) {
+                             const std::optional<std::string>& replacement, std::span<const Plugin<Function>> table,
+                             std::string& plugin_name) {
   Node node;
   if (child) {
     node = *child->node;
@@ -171,8 +171,8 @@ void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
   if (!plugin) return;
   Parameters p = parameters(node);
   tables().film = film(p, options);
-  tables().sampler = compile_chosen(p.child("sampler"), "sampler", "sobol", options.sampler, sampler_plugins(),
-                                    scene_.info.sampler);
+  tables().sampler =
+      compile_chosen(p.child("sampler"), "sampler", "sobol", options.sampler, sampler_plugins(), scene_.info.sampler);
   tables().camera = plugin->compile(p, *this, tables().film);
   p.finish();
 }
@@ -217,7 +217,10 @@ std::uint32_t Builder::add_shape(const ShapeGeometry& geometry, Material materia
   for (const auto& [center, radius, flip_normals] : geometry.spheres) {
     surfaces.push_back({{static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z),
                          static_cast<float>(radius)},
-                        material.front, material.back, kNone, shape});
+                        material.front,
+                        material.back,
+                        kNone,
+                        shape});
     record.flip_normals = flip_normals;
   }
   if (!sphere) add_triangles(geometry.mesh, material, shape);
@@ -257,7 +260,10 @@ void Builder::add_triangles(const MeshData& mesh, Material material, std::uint32
     const glm::dvec3 n = glm::normalize(glm::cross(corner(b) - corner(a), corner(c) - corner(a)));
     t.surfaces.push_back({{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z),
                            static_cast<float>(glm::dot(n, corner(a)))},
-                          material.front, material.back, kNone, shape});
+                          material.front,
+                          material.back,
+                          kNone,
+                          shape});
   }
 }
 

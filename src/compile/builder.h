@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "compile/compile.h"
-#include "formats/mesh_data.h"
 #include "compile/plugin_table.h"
+#include "formats/mesh_data.h"
 #include "scene/parameters.h"
 
 namespace norrsken {
@@ -91,8 +91,8 @@ class Builder {
   std::map<const Node*, Material> materials_;
   std::optional<Material> default_material_;
   int bsdf_depth_ = 0;
-  std::vector<bool> is_sphere_;              ///< by shape
-  std::vector<SurfaceRecord> spheres_;       ///< waiting to be put behind the triangles
+  std::vector<bool> is_sphere_;         ///< by shape
+  std::vector<SurfaceRecord> spheres_;  ///< waiting to be put behind the triangles
 };
 
 }  // namespace norrsken

@@ -29,8 +29,7 @@ TEST(Compile, TheFirstSensorIsUsed) {
       R"(<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="10"/><rfilter type="box"/></film></sensor>)" +
       kSensor + kShape + kEmitter);
   EXPECT_EQ(c.tables().film.width, 10);
-  EXPECT_THAT(c.messages(),
-              ElementsAre("warning: only the scene's first sensor is used, this one is left aside"));
+  EXPECT_THAT(c.messages(), ElementsAre("warning: only the scene's first sensor is used, this one is left aside"));
 }
 
 TEST(Compile, RefusesWhatDoesNotBelongIntoAScene) {
@@ -65,7 +64,8 @@ TEST(Compile, TellsAllThatIsWrongInOneRun) {
 TEST(Compile, InfoTellsWhatTheSceneContains) {
   const Compiled c = compile_elements(
       R"(<default name="n" value="3"/><integrator type="path"><integer name="max_depth" value="$n"/></integrator>)" +
-      kSensor + R"(<bsdf type="diffuse" id="white"/><shape type="rectangle" id="floor"><ref id="white"/>)"
+      kSensor +
+      R"(<bsdf type="diffuse" id="white"/><shape type="rectangle" id="floor"><ref id="white"/>)"
       R"(<emitter type="area"/></shape><shape type="sphere" id="ball"/>)");
   ASSERT_THAT(c.messages(), IsEmpty());
   const SceneInfo& info = c.info();

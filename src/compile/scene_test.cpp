@@ -141,8 +141,8 @@ TEST(HexagonRoom, HasOneParallelogramLightOrAPointOfTheSameFlux) {
   EXPECT_THAT(panel.emission, ElementsAre(10, 10, 10));
   EXPECT_EQ(panel.origin[2], 4.9f);
 
-  const Scene point = load_room({.parameters = {{"light", "point"}}, .integrator = {}, .sampler = {}, .width = {},
-                                 .height = {}});
+  const Scene point =
+      load_room({.parameters = {{"light", "point"}}, .integrator = {}, .sampler = {}, .width = {}, .height = {}});
   EXPECT_EQ(point.tables().tables.triangle_count(), 28u);
   ASSERT_EQ(point.tables().tables.lights.size(), 1u);
   EXPECT_EQ(point.tables().tables.lights[0].kind, LightKind::point);

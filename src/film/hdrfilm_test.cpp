@@ -89,9 +89,9 @@ TEST(Hdrfilm, TheCommandLinesSizeWins) {
   EXPECT_EQ(c.tables().film.height, 576);
   options.width = 0;
   options.height = 65537;
-  EXPECT_THAT(compile_elements(kSensor + kShape + kEmitter, {}, options).messages(),
-              ElementsAre("error: width 0 is out of range [1 to 65536]",
-                          "error: height 65537 is out of range [1 to 65536]"));
+  EXPECT_THAT(
+      compile_elements(kSensor + kShape + kEmitter, {}, options).messages(),
+      ElementsAre("error: width 0 is out of range [1 to 65536]", "error: height 65537 is out of range [1 to 65536]"));
 }
 
 }  // namespace

@@ -18,9 +18,9 @@ std::string integer(const std::string& name, const std::string& value) {
 
 TEST(IntegratorHost, TakeTheirParameters) {
   for (const std::string type : {"path", "whitted"}) {
-    const Compiled c = compile_integrator(
-        integrator(type, integer("max_depth", "7") + integer("rr_depth", "3") + integer("emitter_samples", "20") +
-                             R"(<boolean name="hide_emitters" value="true"/>)"));
+    const Compiled c = compile_integrator(integrator(type, integer("max_depth", "7") + integer("rr_depth", "3") +
+                                                               integer("emitter_samples", "20") +
+                                                               R"(<boolean name="hide_emitters" value="true"/>)"));
     ASSERT_THAT(c.messages(), IsEmpty());
     const IntegratorSettings& settings = c.tables().integrator;
     EXPECT_EQ(settings.name, type);
@@ -73,9 +73,8 @@ TEST(IntegratorHost, RefuseWhatIsOutOfRange) {
               ElementsAre("error: 'emitter_samples' is 0 [an integer from 1 to 100000]"));
   EXPECT_THAT(messages("emitter_samples", "100001"),
               ElementsAre("error: 'emitter_samples' is 100001 [an integer from 1 to 100000]"));
-  EXPECT_THAT(messages("depth", "4"),
-              ElementsAre("error: unused parameter 'depth' of integrator 'path' "
-                          "[bounces, emitter_samples, hide_emitters, max_depth, rr_depth]"));
+  EXPECT_THAT(messages("depth", "4"), ElementsAre("error: unused parameter 'depth' of integrator 'path' "
+                                                  "[bounces, emitter_samples, hide_emitters, max_depth, rr_depth]"));
   EXPECT_THAT(compile_integrator(integrator("path", R"(<float name="max_depth" value="4"/>)")).messages(),
               ElementsAre("error: 'max_depth' is a float [integer]"));
 }
@@ -103,7 +102,8 @@ TEST(IntegratorHost, TheCommandLinesReplacementMustExist) {
   LoadOptions options;
   options.integrator = "wited";
   const Compiled c = compile_integrator(integrator("path", ""), options);
-  EXPECT_THAT(c.messages(), ElementsAre("error: unknown integrator 'wited', did you mean 'whitted'? [direct, path, whitted]"));
+  EXPECT_THAT(c.messages(),
+              ElementsAre("error: unknown integrator 'wited', did you mean 'whitted'? [direct, path, whitted]"));
   EXPECT_EQ(c.diagnostics.all().at(0).location.line, 0);
 }
 
@@ -113,7 +113,9 @@ TEST(IntegratorHost, AReplacedIntegratorsUnknownParametersAreLeftAside) {
   const Compiled c = compile_elements(
       R"(<sensor type="perspective"><film type="hdrfilm"><rfilter type="box"/></film>
          <sampler type="multijitter"><integer name="sample_count" value="9"/><boolean name="jitter" value="true"/></sampler>
-         </sensor>)" + kShape + kEmitter, {}, options);
+         </sensor>)" +
+          kShape + kEmitter,
+      {}, options);
   ASSERT_THAT(c.messages(), IsEmpty());
   EXPECT_EQ(c.tables().sampler.kind, SamplerKind::independent);
   EXPECT_EQ(c.tables().sampler.samples_per_pixel, 9);

@@ -2,8 +2,8 @@
 //
 // Parameters
 //   radiance   color, W / (m^2 sr), at least 0 (default 1)
-// One light per sphere and per triangle; two triangles of a shape that make a parallelogram are one light, so that it is
-// chosen and sampled as a whole.
+// One light per sphere and per triangle; two triangles of a shape that make a parallelogram are one light, so that it
+// is chosen and sampled as a whole.
 #include <fmt/format.h>
 
 #include "compile/plugins.h"

@@ -50,8 +50,8 @@ LightRecord flat_light(LightKind kind, const Corner& apex, const Corner& left, c
 bool completes_parallelogram(const Corner& apex, const Corner& left, const Corner& right, const Corner& opposite) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double gap = double{left[axis]} + double{right[axis]} - double{apex[axis]} - double{opposite[axis]};
-    const double size = std::max({std::abs(left[axis]), std::abs(right[axis]), std::abs(apex[axis]),
-                                  std::abs(opposite[axis])});
+    const double size =
+        std::max({std::abs(left[axis]), std::abs(right[axis]), std::abs(apex[axis]), std::abs(opposite[axis])});
     // Each of four coordinates was rounded by half an ulp at most.
     if (std::abs(gap) > 4 * (FLT_EPSILON / 2) * size) return false;
   }

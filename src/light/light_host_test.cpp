@@ -53,9 +53,8 @@ TEST(PointEmitter, RefusesNegativeLightAndOtherParameters) {
 }
 
 TEST(PointEmitter, CannotBelongToAShape) {
-  EXPECT_THAT(
-      compile_elements(kSensor + R"(<shape type="sphere"><emitter type="point"/></shape>)").messages(),
-      ElementsAre("error: emitter 'point' has no surface and cannot belong to a shape [area]"));
+  EXPECT_THAT(compile_elements(kSensor + R"(<shape type="sphere"><emitter type="point"/></shape>)").messages(),
+              ElementsAre("error: emitter 'point' has no surface and cannot belong to a shape [area]"));
 }
 
 TEST(AreaEmitter, ARectangleIsOneParallelogram) {
@@ -84,12 +83,12 @@ TEST(AreaEmitter, ARectangleIsOneParallelogram) {
 }
 
 TEST(AreaEmitter, SurfacesThatDoNotShineHaveNoLight) {
-  const Compiled c = compile_elements(kSensor + R"(<shape type="rectangle"/><shape type="rectangle">)" + kArea +
-                                      "</shape>" + kShape);
+  const Compiled c =
+      compile_elements(kSensor + R"(<shape type="rectangle"/><shape type="rectangle">)" + kArea + "</shape>" + kShape);
   ASSERT_EQ(c.tables().surfaces.size(), 5u);
-  const auto lights = std::vector{c.tables().surfaces[0].light, c.tables().surfaces[1].light,
-                                  c.tables().surfaces[2].light, c.tables().surfaces[3].light,
-                                  c.tables().surfaces[4].light};
+  const auto lights =
+      std::vector{c.tables().surfaces[0].light, c.tables().surfaces[1].light, c.tables().surfaces[2].light,
+                  c.tables().surfaces[3].light, c.tables().surfaces[4].light};
   EXPECT_THAT(lights, ElementsAre(kNone, kNone, 0u, 0u, kNone));
   EXPECT_FALSE(c.tables().surfaces[0].material_front & kEmitsBit);
   EXPECT_FALSE(c.tables().surfaces[4].material_front & kEmitsBit);
@@ -97,9 +96,8 @@ TEST(AreaEmitter, SurfacesThatDoNotShineHaveNoLight) {
 
 TEST(AreaEmitter, ASphereIsOneLight) {
   const Compiled c = compile_elements(
-      kSensor +
-      R"(<shape type="sphere"><point name="center" x="1" y="2" z="3"/><float name="radius" value="2"/>)" + kArea +
-      R"(</shape><shape type="sphere"><boolean name="flip_normals" value="true"/>)" + kArea + "</shape>");
+      kSensor + R"(<shape type="sphere"><point name="center" x="1" y="2" z="3"/><float name="radius" value="2"/>)" +
+      kArea + R"(</shape><shape type="sphere"><boolean name="flip_normals" value="true"/>)" + kArea + "</shape>");
   ASSERT_THAT(c.messages(), IsEmpty());
   ASSERT_EQ(c.tables().lights.size(), 2u);
   const LightRecord& light = c.tables().lights[0];

@@ -72,7 +72,8 @@ bool drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
   const std::size_t dropped = before - mesh.triangles.size();
   if (mesh.triangles.empty()) {
     p.error(p.has("filename") ? "filename" : "to_world",
-            before == 0 ? "the mesh has no triangles" : "no triangle of the shape has an area");
+            before == 0 ? "the mesh has no triangles" : "no triangle of the shape has an area",
+            "triangles whose corners do not lie on one line");
     return false;
   }
   if (dropped != 0) {
@@ -155,8 +156,9 @@ std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, 
   if (flip_tex_coords) {
     for (auto& texcoord : mesh->texcoords) texcoord[1] = 1 - texcoord[1];
   }
-  builder.describe(p.node(), fmt::format("{} triangle{}{}", mesh->triangles.size(), mesh->triangles.size() == 1 ? "" : "s",
-                                         mesh->normals.empty() ? "" : ", smooth"));
+  builder.describe(p.node(),
+                   fmt::format("{} triangle{}{}", mesh->triangles.size(), mesh->triangles.size() == 1 ? "" : "s",
+                               mesh->normals.empty() ? "" : ", smooth"));
   return ShapeGeometry{.mesh = std::move(*mesh), .spheres = {}};
 }
 

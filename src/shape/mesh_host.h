@@ -7,9 +7,10 @@
 //   flip_normals     boolean (default false): turn the surface inside out
 //   flip_tex_coords  boolean: v becomes 1 - v
 //
-// Normals, as Mitsuba documents them: the file's own; without any, the mean of the faces around each vertex weighed with
-// the angle of their corner, so only vertices that faces do not share stay sharp. A mesh without normals of its own is
-// turned inside out by a mirroring `to_world`, like in Mitsuba, because its winding is what says where its front is.
+// Normals, as Mitsuba documents them: the file's own; without any, the mean of the faces around each vertex weighed
+// with the angle of their corner, so only vertices that faces do not share stay sharp. A mesh without normals of its
+// own is turned inside out by a mirroring `to_world`, like in Mitsuba, because its winding is what says where its front
+// is.
 //
 // Departures: Mitsuba tells front from back by the shading normal. Here the geometric normal does, and a triangle whose
 // winding contradicts the file's vertex normals is wound the other way, which comes to the same.

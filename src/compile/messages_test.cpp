@@ -1,0 +1,204 @@
+// The complaints as a person reads them, to the letter: what was found, where, and what would have been accepted.
+#include <gtest/gtest.h>
+
+#include "compile/compile_testing.h"
+
+namespace norrsken::testing {
+namespace {
+
+/// All complaints about a scene of a sensor, a light (on lines 2 to 7) and `elements`.
+std::string complaints(const std::string& elements, const Files& files = {}) {
+  const std::string rest =
+      "  <sensor type=\"perspective\">\n"
+      "    <film type=\"hdrfilm\">\n"
+      "      <rfilter type=\"box\"/>\n"
+      "    </film>\n"
+      "  </sensor>\n"
+      "  <emitter type=\"point\"/>\n";
+  const Compiled compiled = compile_elements(rest + elements, files);
+  std::string text;
+  for (const Diagnostic& d : compiled.diagnostics.all()) text += to_text(d) + "\n";
+  return text;
+}
+
+TEST(Messages, UnknownPlugin) {
+  EXPECT_EQ(complaints(R"(  <shape type="sphere">
+    <bsdf type="difuse"/>
+  </shape>)"),
+            R"(scene.xml:9:17: error: unknown bsdf 'difuse', did you mean 'diffuse'?
+    9 |     <bsdf type="difuse"/>
+      |                 ^~~~~~
+accepted: conductor, diffuse, twosided
+)");
+}
+
+TEST(Messages, PluginToCome) {
+  EXPECT_EQ(complaints(R"(  <shape type="sphere">
+    <bsdf type="roughplastic"/>
+  </shape>)"),
+            R"(scene.xml:9:17: error: bsdf 'roughplastic' is not supported yet
+    9 |     <bsdf type="roughplastic"/>
+      |                 ^~~~~~~~~~~~
+accepted: conductor, diffuse, twosided
+)");
+}
+
+TEST(Messages, UnusedParameter) {
+  EXPECT_EQ(complaints(R"(  <shape type="sphere">
+    <float name="raduis" value="2"/>
+  </shape>)"),
+            R"(scene.xml:9:18: error: unused parameter 'raduis' of shape 'sphere', did you mean 'radius'?
+    9 |     <float name="raduis" value="2"/>
+      |                  ^~~~~~
+accepted: center, flip_normals, radius, to_world
+)");
+}
+
+TEST(Messages, WrongType) {
+  EXPECT_EQ(complaints(R"(  <shape type="sphere">
+    <string name="radius" value="big"/>
+  </shape>)"),
+            R"(scene.xml:9:34: error: 'radius' is a string
+    9 |     <string name="radius" value="big"/>
+      |                                  ^~~
+accepted: float
+)");
+}
+
+TEST(Messages, NotANumber) {
+  EXPECT_EQ(complaints(R"(  <shape type="sphere">
+    <float name="radius" value="nan"/>
+  </shape>)"),
+            R"(scene.xml:9:33: error: 'nan' is not finite
+    9 |     <float name="radius" value="nan"/>
+      |                                 ^~~
+accepted: a finite number
+)");
+}
+
+TEST(Messages, MissingFile) {
+  EXPECT_EQ(complaints(R"(  <shape type="obj">
+    <string name="filename" value="missing.obj"/>
+  </shape>)"),
+            R"(scene.xml:9:36: error: there is no file 'missing.obj'
+    9 |     <string name="filename" value="missing.obj"/>
+      |                                    ^~~~~~~~~~~
+accepted: a file in the current folder
+)");
+}
+
+TEST(Messages, MissingFileName) {
+  EXPECT_EQ(complaints(R"(  <shape type="obj"/>)"),
+            R"(scene.xml:8:3: error: shape 'obj' needs a parameter 'filename'
+    8 |   <shape type="obj"/>
+      |   ^~~~~~
+accepted: <string name="filename" value="..."/>
+)");
+}
+
+TEST(Messages, OnlyTrianglesWithoutArea) {
+  EXPECT_EQ(complaints(R"(  <shape type="obj">
+    <string name="filename" value="line.obj"/>
+  </shape>)",
+                       {{"line.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n"}}),
+            R"(scene.xml:9:36: error: no triangle of the shape has an area
+    9 |     <string name="filename" value="line.obj"/>
+      |                                    ^~~~~~~~
+accepted: triangles whose corners do not lie on one line
+)");
+}
+
+TEST(Messages, SomeTrianglesWithoutArea) {
+  EXPECT_EQ(complaints(R"(  <shape type="obj">
+    <string name="filename" value="a.obj"/>
+  </shape>)",
+                       {{"a.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 0 1 0\nf 1 2 3\nf 1 2 4\n"}}),
+            R"(scene.xml:9:36: warning: 1 of 2 triangles has no area and is left out
+    9 |     <string name="filename" value="a.obj"/>
+      |                                    ^~~~~
+)");
+}
+
+TEST(Messages, RectangleWithoutArea) {
+  EXPECT_EQ(complaints(R"(  <shape type="rectangle">
+    <transform name="to_world">
+      <scale x="0"/>
+    </transform>
+  </shape>)"),
+            R"(scene.xml:9:5: error: 'to_world' cannot be inverted
+    9 |     <transform name="to_world">
+      |     ^~~~~~~~~~
+accepted: scale factors other than 0
+)");
+}
+
+TEST(Messages, ShapeInAShape) {
+  EXPECT_EQ(complaints(R"(  <shape type="sphere">
+    <shape type="sphere"/>
+  </shape>)"),
+            R"(scene.xml:9:5: error: unused shape 'sphere' in shape 'sphere'
+    9 |     <shape type="sphere"/>
+      |     ^~~~~~
+accepted: bsdf, emitter
+)");
+}
+
+TEST(Messages, AreaEmitterOutsideOfAShape) {
+  EXPECT_EQ(complaints(R"(  <shape type="sphere"/>
+  <emitter type="area"/>)"),
+            R"(scene.xml:9:18: error: emitter 'area' stands outside of a shape
+    9 |   <emitter type="area"/>
+      |                  ^~~~
+accepted: an area emitter inside of the shape that shines
+)");
+}
+
+TEST(Messages, SecondSensor) {
+  EXPECT_EQ(complaints(R"(  <shape type="sphere"/>
+  <sensor type="perspective"/>)"),
+            R"(scene.xml:9:3: warning: only the scene's first sensor is used, this one is left aside
+    9 |   <sensor type="perspective"/>
+      |   ^~~~~~~
+)");
+}
+
+TEST(Messages, NoShape) {
+  EXPECT_EQ(complaints(""),
+            R"(scene.xml:1:1: error: the scene has no shape
+    1 | <scene version="3.0.0">
+      | ^~~~~~
+accepted: <shape type="...">
+)");
+}
+
+TEST(Messages, SeveralInOneRun) {
+  const Compiled c = compile_elements(R"(  <sensor type="perspective">
+    <film type="hdrfilm">
+      <integer name="width" value="10000000"/>
+    </film>
+    <sampler type="independent">
+      <integer name="sample_count" value="0"/>
+    </sampler>
+  </sensor>
+  <shape type="sphere"/>)");
+  EXPECT_FALSE(c.scene);
+  std::string text;
+  for (const Diagnostic& d : c.diagnostics.all()) text += to_text(d) + "\n";
+  EXPECT_EQ(text,
+            R"(scene.xml:4:36: error: 'width' is 10000000
+    4 |       <integer name="width" value="10000000"/>
+      |                                    ^~~~~~~~
+accepted: an integer from 1 to 65536
+scene.xml:3:5: warning: no rfilter given: 'box' is used, because Mitsuba's default, 'gaussian', is not supported yet
+    3 |     <film type="hdrfilm">
+      |     ^~~~~
+accepted: <rfilter type="box"/>
+scene.xml:7:43: error: 'sample_count' is 0
+    7 |       <integer name="sample_count" value="0"/>
+      |                                           ^
+accepted: an integer from 1 to 2147483647
+)");
+}
+
+}  // namespace
+}  // namespace norrsken::testing
