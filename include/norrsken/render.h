@@ -61,7 +61,7 @@ class Render {
   virtual void cancel() noexcept = 0;
 
   /// What has been rendered so far: R, G, B; `layers` adds `samples`, `variance.R/G/B` (of the mean), `error.R/G/B`
-  /// (its root) and, with RenderOptions::features, `depth.Z`, `normal.X/Y/Z`, `albedo.R/G/B`, `id`.
+  /// (its root; both NaN while a pixel has too few samples to tell) and, with RenderOptions::features, `depth.Z`, `normal.X/Y/Z`, `albedo.R/G/B`, `id`.
   virtual Image image(bool layers = false) const = 0;
 };
 

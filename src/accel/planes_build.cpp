@@ -124,8 +124,8 @@ class PlaneSetBuilder {
   double scale_;
 };
 
-/// Whether everything (triangles, spheres, lights) is on one side of the polygon's plane: then the plane cannot come
-/// between two points of the scene.
+/// Whether everything (triangles, spheres, lights) is on one side of the polygon's plane, and its other side scatters
+/// nothing: then the polygon cannot come between two points that light travels between.
 bool bounds_the_scene(const SceneTables& scene, const ConvexPolygon& polygon, double scale) {
   double lowest = 0, highest = 0;
   const auto extend = [&](const float* p, double radius) {
@@ -141,7 +141,10 @@ bool bounds_the_scene(const SceneTables& scene, const ConvexPolygon& polygon, do
     if (light.kind == LightKind::point) extend(light.origin, 0);
   }
   const double tolerance = kCoplanar * scale;
-  return lowest >= -tolerance || highest <= tolerance;
+  const SurfaceRecord& surface = scene.surfaces[polygon.primitive];
+  const bool front_shut = material_kind(surface.material_front) == BsdfKind::absorb;
+  const bool back_shut = material_kind(surface.material_back) == BsdfKind::absorb;
+  return (lowest >= -tolerance && back_shut) || (highest <= tolerance && front_shut);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "tables/wave_types.h"
 
@@ -117,8 +118,9 @@ Image Film::image(bool layers, std::uint32_t feature_samples) const {
       const PixelEstimate e = estimate(i, static_cast<int>(c));
       image.channels[color[c]].values[i] = static_cast<float>(e.mean);
       if (!layers) continue;
-      image.channels[variance[c]].values[i] = static_cast<float>(e.variance);
-      image.channels[error[c]].values[i] = static_cast<float>(std::sqrt(e.variance));
+      const double known = e.known ? e.variance : std::numeric_limits<double>::quiet_NaN();
+      image.channels[variance[c]].values[i] = static_cast<float>(known);
+      image.channels[error[c]].values[i] = static_cast<float>(std::sqrt(known));
     }
     if (layers) image.channels[samples].values[i] = static_cast<float>(counts_[i]);
   }

@@ -1,0 +1,126 @@
+// What kernel tests share: a scene's view without rendering it, made-up queues, and comparing them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "isa/entry.h"
+#include "norrsken/scene.h"
+#include "render/scene_view.h"
+#include "render/wave_arena.h"
+
+namespace norrsken {
+
+/// A scene and a view of it.
+struct ViewedScene {
+  Scene scene;
+  Accel accel;
+  SceneView view;
+
+  ViewedScene(Scene s, AccelKind kind)
+      : scene(std::move(s)),
+        accel(scene.tables().tables, kind),
+        view(make_scene_view(scene.tables().tables, accel.view())) {}
+};
+
+inline std::unique_ptr<ViewedScene> view_scene(const std::string& name, AccelKind kind, LoadOptions options = {}) {
+  Diagnostics diagnostics;
+  std::optional<Scene> scene = Scene::load(name, options, diagnostics);
+  for (const Diagnostic& d : diagnostics.all()) ADD_FAILURE() << to_text(d);
+  return scene ? std::make_unique<ViewedScene>(*scene, kind) : nullptr;
+}
+
+/// Every usable instruction set but the one-lane oracle.
+inline std::vector<const KernelEntry*> wide_kernels() {
+  std::vector<const KernelEntry*> kernels;
+  for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+    if ((*k)->lanes > 1) kernels.push_back(*k);
+  }
+  return kernels;
+}
+
+inline float float_of(std::uint32_t word) {
+  float f;
+  std::memcpy(&f, &word, sizeof f);
+  return f;
+}
+inline std::uint32_t word_of(float f) {
+  std::uint32_t word;
+  std::memcpy(&word, &f, sizeof word);
+  return word;
+}
+
+/// Fills everything behind a queue's end with values that would do harm if they were looked at.
+inline void poison_tail(Queue& q, std::uint32_t fields) {
+  for (std::uint32_t k = 0; k < fields; ++k) {
+    for (std::uint32_t i = q.count; i < q.count + kMaxLanes; ++i) q.field(k)[i] = float_of(0x7fabcdefu);
+  }
+}
+
+/// Records of a queue in the order of their slots (and within a slot of their place), field by field.
+inline std::vector<std::vector<float>> sorted_records(const Queue& q, std::uint32_t fields, std::uint32_t slot_field) {
+  std::vector<std::vector<float>> records;
+  for (std::uint32_t i = 0; i < q.count; ++i) {
+    std::vector<float> record;
+    for (std::uint32_t k = 0; k < fields; ++k) record.push_back(q.field(k)[i]);
+    records.push_back(std::move(record));
+  }
+  std::stable_sort(records.begin(), records.end(), [&](const auto& a, const auto& b) {
+    return word_of(a[slot_field]) < word_of(b[slot_field]);
+  });
+  return records;
+}
+
+/// Rays from random points of a box in random directions.
+class RandomRays {
+ public:
+  RandomRays(std::uint32_t count, unsigned seed, const double lower[3], const double upper[3]) : count_(count) {
+    const std::size_t padded = (count + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
+    values_ = std::unique_ptr<float, decltype(&std::free)>(
+        static_cast<float*>(std::aligned_alloc(64, 6 * padded * sizeof(float))), &std::free);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::normal_distribution<double> normal;
+    for (std::size_t i = 0; i < padded; ++i) {
+      double d[3], length = 0;
+      for (double& x : d) x = normal(random), length += x * x;
+      for (std::size_t k = 0; k < 3; ++k) {
+        values_.get()[k * padded + i] = static_cast<float>(lower[k] + (upper[k] - lower[k]) * unit(random));
+        values_.get()[(3 + k) * padded + i] = static_cast<float>(d[k] / std::sqrt(length));
+      }
+    }
+    const float* v = values_.get();
+    arrays_ = {v, v + padded, v + 2 * padded, v + 3 * padded, v + 4 * padded, v + 5 * padded, count};
+  }
+  const RayArrays& arrays() const { return arrays_; }
+
+ private:
+  std::uint32_t count_;
+  std::unique_ptr<float, decltype(&std::free)> values_{nullptr, &std::free};
+  RayArrays arrays_{};
+};
+
+/// Aligned memory for a ray kernel's answers.
+template <class T>
+class Answers {
+ public:
+  explicit Answers(std::uint32_t count)
+      : values_(static_cast<T*>(std::aligned_alloc(64, (count + kMaxLanes) / kMaxLanes * kMaxLanes * 4 + 64))) {}
+  T* data() { return values_.get(); }
+  T operator[](std::uint32_t i) const { return values_.get()[i]; }
+
+ private:
+  struct Free {
+    void operator()(T* p) const { std::free(p); }
+  };
+  std::unique_ptr<T, Free> values_;
+};
+
+}  // namespace norrsken

@@ -1,0 +1,246 @@
+// Every instruction set against the one-lane kernels: each stage alone on made-up queues of every tail length, and
+// whole waves. Hits on an edge may fall to either side where rounding differs, so a share of records may differ; it is
+// bounded, and everything else must agree closely.
+#include "isa/kernel_testing.h"
+
+namespace norrsken {
+namespace {
+
+const KernelEntry& oracle() { return *find_kernels("scalar"); }
+
+/// Lengths around every register's: empty, partly filled, full, one more, several and a bit.
+std::vector<std::uint32_t> tail_lengths() {
+  std::vector<std::uint32_t> lengths;
+  for (std::uint32_t n = 0; n <= 2 * kMaxLanes + 1; ++n) lengths.push_back(n);
+  lengths.push_back(1000);
+  return lengths;
+}
+
+constexpr std::uint32_t kSlots = 1024;
+
+/// Arenas with the same slots and the same made-up rays from inside the room.
+struct Made {
+  WaveArena arena{kSlots};
+  WaveMemory& memory = arena.memory();
+
+  explicit Made(std::uint32_t rays) {
+    memory.slots.count = kSlots;
+    std::mt19937 random(99);
+    for (std::uint32_t s = 0; s < kSlots; ++s) {
+      for (std::uint32_t k = kSlotRed; k <= kSlotBlue; ++k) memory.slots.field(k)[s] = 0.0f;
+      memory.slots.field(kSlotKey)[s] = float_of(static_cast<std::uint32_t>(random()) >> 2);
+      memory.slots.field(kSlotIndex)[s] = float_of(s % 7);
+    }
+    const double lower[3] = {0, -5, -4.9}, upper[3] = {10, 5, 4.8};
+    const RandomRays made(kSlots, 5, lower, upper);
+    const RayArrays& a = made.arrays();
+    std::uniform_real_distribution<float> unit(0.1f, 1.0f);
+    Queue& q = memory.rays;
+    for (std::uint32_t i = 0; i < rays; ++i) {
+      const float* sources[6] = {a.ox, a.oy, a.oz, a.dx, a.dy, a.dz};
+      for (std::uint32_t k = 0; k < 6; ++k) q.field(k)[i] = sources[k][i];
+      for (std::uint32_t k = kRayThroughputRed; k <= kRayThroughputBlue; ++k) q.field(k)[i] = unit(random);
+      q.field(kRayPdf)[i] = i % 3 == 0 ? 0.0f : unit(random);
+      q.field(kRaySlot)[i] = float_of((i * 37) % kSlots);
+    }
+    q.count = rays;
+    poison_tail(q, kRayFieldCount);
+  }
+};
+
+bool close(float a, float b, float scale) { return std::abs(a - b) <= 2e-4f * std::max(scale, std::abs(a)) || a == b; }
+
+/// Compares queues record by record; `discrete` fields must be equal bits. Records that only one side has, or that
+/// went another way, are counted and may be one in 200.
+void expect_equal_queues(const Queue& got, const Queue& wanted, std::uint32_t fields, std::uint32_t slot_field,
+                         const std::vector<std::uint32_t>& discrete, const std::string& what) {
+  const auto a = sorted_records(got, fields, slot_field), b = sorted_records(wanted, fields, slot_field);
+  std::size_t strays = 0, i = 0, k = 0;
+  while (i < a.size() && k < b.size()) {
+    const std::uint32_t sa = word_of(a[i][slot_field]), sb = word_of(b[k][slot_field]);
+    if (sa != sb) {
+      ++strays;
+      sa < sb ? ++i : ++k;
+      continue;
+    }
+    bool same = true;
+    for (std::uint32_t f = 0; f < fields; ++f) {
+      const bool is_discrete = std::find(discrete.begin(), discrete.end(), f) != discrete.end();
+      same = same && (is_discrete ? word_of(a[i][f]) == word_of(b[k][f]) : close(a[i][f], b[k][f], 1.0f));
+    }
+    strays += same ? 0 : 1;
+    ++i, ++k;
+  }
+  strays += (a.size() - i) + (b.size() - k);
+  EXPECT_LE(strays, std::max(a.size(), b.size()) / 200) << what << ": " << a.size() << " and " << b.size() << " records";
+}
+
+void expect_equal_slots(const Queue& got, const Queue& wanted, const std::string& what) {
+  std::size_t strays = 0;
+  for (std::uint32_t s = 0; s < got.count; ++s) {
+    for (std::uint32_t k = kSlotRed; k <= kSlotBlue; ++k) {
+      strays += close(got.field(k)[s], wanted.field(k)[s], 0.1f) ? 0u : 1u;
+    }
+  }
+  EXPECT_LE(strays, got.count / 100) << what;
+}
+
+std::string label(const KernelEntry& kernels, std::uint32_t n) {
+  return std::string(kernels.name) + ", " + std::to_string(n) + " records";
+}
+
+class Parity : public testing::TestWithParam<AccelKind> {
+ protected:
+  void SetUp() override {
+    LoadOptions options;
+    options.parameters = {{"shadow_rays", "2"}};
+    viewed_ = view_scene("hexagon_room", GetParam(), options);
+    ASSERT_NE(viewed_, nullptr);
+  }
+  const SceneView& scene() const { return viewed_->view; }
+
+  /// Hits of the made-up rays, found by the oracle, in both arenas alike.
+  void find_hits(Made& made) const {
+    oracle().intersect_closest(scene(), 2, ~1u, made.memory.rays, made.memory.hits, made.memory.light_hits);
+    for (Queue& q : made.memory.hits) poison_tail(q, kHitFieldCount);
+    poison_tail(made.memory.light_hits, kHitFieldCount);
+  }
+
+  std::unique_ptr<ViewedScene> viewed_;
+};
+
+constexpr std::uint32_t kDiffuse = static_cast<std::uint32_t>(BsdfKind::diffuse);
+constexpr std::uint32_t kConductor = static_cast<std::uint32_t>(BsdfKind::conductor);
+
+TEST_P(Parity, IntersectClosest) {
+  for (const KernelEntry* kernels : wide_kernels()) {
+    for (const std::uint32_t n : tail_lengths()) {
+      Made a(n), b(n);
+      kernels->intersect_closest(scene(), 2, ~1u, a.memory.rays, a.memory.hits, a.memory.light_hits);
+      oracle().intersect_closest(scene(), 2, ~1u, b.memory.rays, b.memory.hits, b.memory.light_hits);
+      for (const std::uint32_t kind : {kDiffuse, kConductor}) {
+        expect_equal_queues(a.memory.hits[kind], b.memory.hits[kind], kHitFieldCount, kRaySlot,
+                            {kRaySlot, kHitPrimitive, kHitMaterial}, label(*kernels, n));
+      }
+      expect_equal_queues(a.memory.light_hits, b.memory.light_hits, kHitFieldCount, kRaySlot,
+                          {kRaySlot, kHitMaterial}, label(*kernels, n));
+      if (n == 1000) {
+        EXPECT_GT(b.memory.hits[kDiffuse].count, 900u);
+        EXPECT_GT(b.memory.hits[kConductor].count, 10u);
+        EXPECT_GT(b.memory.light_hits.count, 5u);
+      }
+    }
+  }
+}
+
+TEST_P(Parity, IntersectEmittersFindsWhatIntersectClosestFinds) {
+  for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+    for (const std::uint32_t n : tail_lengths()) {
+      Made a(n), b(n);
+      (*k)->intersect_emitters(scene(), a.memory.rays, a.memory.light_hits);
+      oracle().intersect_closest(scene(), 2, 0u, b.memory.rays, b.memory.hits, b.memory.light_hits);
+      expect_equal_queues(a.memory.light_hits, b.memory.light_hits, kHitFieldCount, kRaySlot,
+                          {kRaySlot, kHitMaterial}, label(**k, n));
+    }
+  }
+}
+
+TEST_P(Parity, ShadeSurfaceAndIntersectShadow) {
+  for (const KernelEntry* kernels : wide_kernels()) {
+    for (const std::uint32_t n : tail_lengths()) {
+      for (const BsdfKind kind : {BsdfKind::diffuse, BsdfKind::conductor}) {
+        for (const bool roulette : {false, true}) {
+          Made a(n), b(n);
+          find_hits(a), find_hits(b);
+          const Queue& hits_a = a.memory.hits[static_cast<std::size_t>(kind)];
+          const Queue& hits_b = b.memory.hits[static_cast<std::size_t>(kind)];
+          // Two shadow rays per hit must fit.
+          if (2 * hits_a.count > a.memory.shadow_rays.capacity) const_cast<Queue&>(hits_a).count = const_cast<Queue&>(hits_b).count = 500;
+          kernels->shade_surface(scene(), kind, 2, roulette, hits_a, a.memory.slots, a.memory.shadow_rays, a.memory.next_rays);
+          oracle().shade_surface(scene(), kind, 2, roulette, hits_b, b.memory.slots, b.memory.shadow_rays, b.memory.next_rays);
+          expect_equal_queues(a.memory.next_rays, b.memory.next_rays, kRayFieldCount, kRaySlot, {kRaySlot}, label(*kernels, n));
+          expect_equal_queues(a.memory.shadow_rays, b.memory.shadow_rays, kShadowFieldCount, kShadowSlot, {kShadowSlot}, label(*kernels, n));
+          if (n == 1000 && kind == BsdfKind::diffuse) {
+            EXPECT_GT(b.memory.shadow_rays.count, 500u);
+          }
+          poison_tail(a.memory.shadow_rays, kShadowFieldCount);
+          poison_tail(b.memory.shadow_rays, kShadowFieldCount);
+          kernels->intersect_shadow(scene(), a.memory.shadow_rays, a.memory.slots);
+          oracle().intersect_shadow(scene(), b.memory.shadow_rays, b.memory.slots);
+          expect_equal_slots(a.memory.slots, b.memory.slots, label(*kernels, n));
+        }
+      }
+    }
+  }
+}
+
+TEST_P(Parity, ShadeEmission) {
+  for (const KernelEntry* kernels : wide_kernels()) {
+    for (const std::uint32_t n : tail_lengths()) {
+      Made a(n), b(n);
+      find_hits(a), find_hits(b);
+      kernels->shade_emission(scene(), a.memory.light_hits, a.memory.slots);
+      oracle().shade_emission(scene(), b.memory.light_hits, b.memory.slots);
+      expect_equal_slots(a.memory.slots, b.memory.slots, label(*kernels, n));
+    }
+  }
+}
+
+TEST_P(Parity, GenerateCameraRays) {
+  for (const KernelEntry* kernels : wide_kernels()) {
+    for (std::uint32_t width = 1; width <= 2 * kMaxLanes + 1; ++width) {
+      Made a(0), b(0);
+      const WaveJob job{3, 5, width, 3, 2, 5};
+      kernels->generate_camera_rays(scene(), job, a.memory.slots, a.memory.rays);
+      oracle().generate_camera_rays(scene(), job, b.memory.slots, b.memory.rays);
+      EXPECT_EQ(b.memory.rays.count, width * 3 * 5);
+      expect_equal_queues(a.memory.rays, b.memory.rays, kRayFieldCount, kRaySlot, {kRaySlot}, label(*kernels, width));
+      for (std::uint32_t i = 0; i < a.memory.rays.count; ++i) {
+        const std::uint32_t slot = word_of(b.memory.rays.field(kRaySlot)[i]);
+        ASSERT_EQ(word_of(a.memory.slots.field(kSlotKey)[slot]), word_of(b.memory.slots.field(kSlotKey)[slot]));
+      }
+    }
+  }
+}
+
+TEST_P(Parity, WholeWaves) {
+  for (const KernelEntry* kernels : wide_kernels()) {
+    Made a(0), b(0);
+    WaveCounts counts_a, counts_b;
+    const WaveJob job{300, 500, 16, 8, 0, 8};
+    kernels->trace_wave(scene(), job, a.memory, counts_a);
+    oracle().trace_wave(scene(), job, b.memory, counts_b);
+    double sum_a = 0, sum_b = 0, difference = 0;
+    for (std::uint32_t s = 0; s < job.slot_count(); ++s) {
+      const float x = a.memory.slots.field(kSlotGreen)[s], y = b.memory.slots.field(kSlotGreen)[s];
+      sum_a += x, sum_b += y, difference += std::abs(x - y) > 1e-3f * y ? 1 : 0;
+    }
+    EXPECT_GT(sum_b, 0);
+    EXPECT_NEAR(sum_a, sum_b, 0.02 * sum_b) << kernels->name;
+    EXPECT_LE(difference, 0.01 * job.slot_count()) << kernels->name;
+    EXPECT_NEAR(static_cast<double>(counts_a.shadow_rays), static_cast<double>(counts_b.shadow_rays), 20);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryAccelerator, Parity,
+                         testing::Values(AccelKind::planes, AccelKind::moller_trumbore, AccelKind::embree),
+                         [](const auto& parameter) { return std::string(accel_name(parameter.param)); });
+
+TEST(SamplerParity, SameBitsInEveryWidth) {
+  Answers<float> x(1000), y(1000), rx(1000), ry(1000);
+  for (const KernelEntry* kernels : wide_kernels()) {
+    for (const SamplerKind kind : {SamplerKind::independent, SamplerKind::sobol}) {
+      for (const std::uint32_t dimension : {0u, 9u, 400u}) {
+        kernels->sample_2d(kind, 0x123456789abcdefull, 77, dimension, 1000, x.data(), y.data());
+        oracle().sample_2d(kind, 0x123456789abcdefull, 77, dimension, 1000, rx.data(), ry.data());
+        for (std::uint32_t i = 0; i < 1000; ++i) {
+          ASSERT_EQ(x[i], rx[i]) << kernels->name;
+          ASSERT_EQ(y[i], ry[i]) << kernels->name;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace norrsken
