@@ -18,15 +18,20 @@ using closed_form::PlaneScene;
 using statistics::Grid;
 using statistics::Judge;
 using statistics::Picture;
-using statistics::RegionMeans;
+using statistics::RegionEstimates;
 
 constexpr int kSize = 16;  ///< of the images of plane.xml and box.xml
 constexpr int kSeeds = 24;
 
-RegionMeans replicates(const Scene& scene, int samples_per_pixel,
-                       std::vector<statistics::Region> regions = statistics::standard_regions(kSize, kSize)) {
+RegionEstimates estimates(const Scene& scene, int samples_per_pixel,
+                          std::vector<statistics::Region> regions = statistics::standard_regions(kSize, kSize)) {
   return render_replicates(scene, {.samples_per_pixel = samples_per_pixel, .threads = kThreads}, kSeeds,
-                           std::move(regions));
+                           std::move(regions))
+      .estimates();
+}
+
+RegionEstimates known(const Picture& picture) {
+  return RegionEstimates::known(picture, statistics::standard_regions(kSize, kSize));
 }
 
 struct PlaneCase {
@@ -42,8 +47,8 @@ class Plane : public ::testing::TestWithParam<PlaneCase> {};
 TEST_P(Plane, HasTheLightOfTheClosedForm) {
   const PlaneCase& c = GetParam();
   Judge judge("plane." + c.name);
-  judge.compare("", replicates(load_test_scene("plane.xml", c.parameters), 256),
-                PlaneScene::image(c.light, kSize, kSize));
+  judge.compare("", estimates(load_test_scene("plane.xml", c.parameters), 256),
+                known(PlaneScene::image(c.light, kSize, kSize)));
   EXPECT_TRUE(judge.verdict());
 }
 
@@ -71,7 +76,7 @@ TEST(PlaneFromBelow, IsBlackUnlessTwoSided) {
     for (int x = 0; x < kSize; ++x) below.at(x, y) = above.at(kSize - 1 - x, y);
   }
   Judge judge("plane.two_sided_from_below");
-  judge.compare("", replicates(load_test_scene("plane_from_below.xml", {{"material", "two_sided"}}), 256), below);
+  judge.compare("", estimates(load_test_scene("plane_from_below.xml", {{"material", "two_sided"}}), 256), known(below));
   EXPECT_TRUE(judge.verdict());
 }
 
@@ -88,7 +93,7 @@ TEST_P(UniformRoom, IsAGeometricSeriesToTheChosenDepth) {
                closed_form::uniform_room_radiance(0.5, 0.2, max_depth - 1)};
     }
     const Scene scene = load_test_scene("box.xml", {{"contents", contents}, {"max_depth", std::to_string(max_depth)}});
-    judge.compare("max_depth " + std::to_string(max_depth), replicates(scene, 128), expected);
+    judge.compare("max_depth " + std::to_string(max_depth), estimates(scene, 128), known(expected));
   }
   EXPECT_TRUE(judge.verdict());
 }
@@ -101,27 +106,52 @@ TEST(EmittersOnly, AreShownExactly) {
   for (const Picture::Pixel& pixel : picture.pixels) EXPECT_EQ(pixel, (Picture::Pixel{1, 2, 0.5}));
 }
 
-/// The oracle's view of lamp_box with paths so long that what they leave out, 0.7^30 of the light, is far below what
-/// the comparison resolves.
-RegionMeans oracle_lamp_box(int bounces, const std::vector<statistics::Region>& regions) {
-  const oracle::Scene scene = oracle::lamp_box();
-  RegionMeans means(regions);
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    means.add(oracle::render(scene, oracle::kInsideBoxCamera, kSize, kSize, 128, {.bounces = bounces}, seed));
+/// The box of box.xml against the oracle's, whose paths may scatter `bounces` times.
+void expect_oracle_box(Judge& judge, const std::string& what, const SceneParameters& parameters, int samples_per_pixel,
+                       const oracle::Scene& box, int bounces, int strata) {
+  const auto regions = statistics::regions_of(kSize, kSize, std::array{Grid{1, 1, 0.005}, Grid{2, 2, 0.02}});
+  judge.compare(
+      what, estimates(load_test_scene("box.xml", parameters), samples_per_pixel, regions),
+      oracle::estimate(box, oracle::kInsideBoxCamera, {.bounces = bounces}, {kSize, kSize, strata, kSeeds}, regions));
+}
+
+TEST(OracleBox, LampShowsTheSameRadiance) {
+  Judge judge("box.lamp");
+  for (const int bounces : {1, 2, 3}) {
+    expect_oracle_box(judge, std::to_string(bounces) + " bounces",
+                      {{"contents", "lamp"}, {"max_depth", std::to_string(bounces + 1)}}, 512, oracle::lamp_box(),
+                      bounces, 14);
   }
-  return means;
+  EXPECT_TRUE(judge.verdict());
+}
+
+TEST(OracleBox, BulbShowsTheSameRadiance) {
+  Judge judge("box.bulb");
+  for (const int bounces : {1, 2, 3, 4}) {
+    expect_oracle_box(judge, std::to_string(bounces) + " bounces",
+                      {{"contents", "bulb"}, {"max_depth", std::to_string(bounces + 1)}}, 512, oracle::bulb_box(),
+                      bounces, 13);
+  }
+  EXPECT_TRUE(judge.verdict());
+}
+
+RegionEstimates lamp_box(const char* max_depth, const char* rr_depth) {
+  return estimates(load_test_scene("box.xml", {{"max_depth", max_depth}, {"rr_depth", rr_depth}}), 512,
+                   statistics::regions_of(kSize, kSize, std::array{Grid{1, 1, 0.005}, Grid{2, 2, 0.02}}));
 }
 
 TEST(RussianRoulette, IsUnbiased) {
-  const auto regions = statistics::regions_of(kSize, kSize, std::array{Grid{1, 0.005}, Grid{2, 0.02}});
-  const auto lamp_box = [&](const char* max_depth, const char* rr_depth) {
-    return replicates(load_test_scene("box.xml", {{"max_depth", max_depth}, {"rr_depth", rr_depth}}), 1024, regions);
-  };
-  const RegionMeans without = lamp_box("8", "1000");
   Judge judge("russian_roulette");
-  judge.compare("8 deep, from depth 1", lamp_box("8", "1"), without);
-  judge.compare("8 deep, from depth 5", lamp_box("8", "5"), without);
-  judge.compare("unbounded, from depth 5", lamp_box("-1", "5"), oracle_lamp_box(30, regions));
+  const RegionEstimates without = lamp_box("8", "1000");
+  judge.compare("from depth 1", lamp_box("8", "1"), without);
+  judge.compare("from depth 5", lamp_box("8", "5"), without);
+  EXPECT_TRUE(judge.verdict());
+}
+
+TEST(UnboundedPaths, FindAllOfTheLight) {
+  // What paths of 30 hits leave out is less than 0.7^30 of the light.
+  Judge judge("unbounded_paths");
+  judge.compare("", lamp_box("-1", "5"), lamp_box("31", "1000"));
   EXPECT_TRUE(judge.verdict());
 }
 

@@ -31,7 +31,12 @@ Image render_image(const Scene& scene, RenderOptions options, bool layers) {
   Diagnostics diagnostics;
   const auto render = Render::create(scene, options, diagnostics);
   if (!render) fail(diagnostics);
-  if (render->run().dropped_samples > 0) throw std::runtime_error("samples were dropped");
+  const RenderStatistics statistics = render->run();
+  if (statistics.dropped_samples > 0) throw std::runtime_error("samples were dropped");
+  if (options.isa != "auto" && statistics.isa != options.isa) throw std::runtime_error("rendered by " + statistics.isa);
+  if (options.accelerator != "auto" && statistics.accelerator != options.accelerator) {
+    throw std::runtime_error("rendered with " + statistics.accelerator);
+  }
   return render->image(layers);
 }
 

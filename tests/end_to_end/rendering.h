@@ -22,7 +22,8 @@ Scene load(const std::string& path_or_name, const LoadOptions& options = {});
 Scene load_test_scene(const std::string& file, const SceneParameters& parameters = {});
 
 /// Renders to the end; an instruction set that is left to choose is the environment's NORRSKEN_TEST_ISA if that is
-/// given. Throws std::runtime_error with the complaints if there are any, or if a sample was dropped.
+/// given. Throws std::runtime_error with the complaints if there are any, if a sample was dropped, or if another
+/// instruction set or accelerator was used than was asked for.
 Image render_image(const Scene& scene, RenderOptions options, bool layers = false);
 
 /// R, G, B of an image.

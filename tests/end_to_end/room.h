@@ -5,10 +5,13 @@
 #include <string>
 
 #include "tests/end_to_end/rendering.h"
+#include "tests/oracle/room_reference.h"
 
 namespace norrsken::end_to_end {
 
-inline constexpr int kRoomSize = 64;   ///< pixels a side
+using oracle::kRoomSize;
+using oracle::RoomResolution;
+
 inline constexpr int kRoomSeeds = 24;  ///< replicates
 
 struct RoomVariant {
@@ -29,14 +32,13 @@ inline Scene load_room(const RoomVariant& variant) {
                                .height = kRoomSize});
 }
 
-inline std::vector<statistics::Region> room_regions() { return statistics::standard_regions(kRoomSize, kRoomSize); }
-
-/// Replicates of the room. Different tests and the two sides of one comparison take seeds of their own.
+/// Replicates of the room, `first_seed` and on.
 inline statistics::RegionMeans room_replicates(const RoomVariant& variant, int samples_per_pixel,
-                                               std::uint64_t first_seed, RenderOptions options = {}) {
+                                               std::uint64_t first_seed, const RoomResolution& resolution,
+                                               RenderOptions options = {}) {
   options.samples_per_pixel = samples_per_pixel;
   options.threads = kThreads;
-  return render_replicates(load_room(variant), options, kRoomSeeds, room_regions(), first_seed);
+  return render_replicates(load_room(variant), options, kRoomSeeds, oracle::room_regions(resolution), first_seed);
 }
 
 }  // namespace norrsken::end_to_end

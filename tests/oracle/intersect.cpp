@@ -17,12 +17,13 @@ std::optional<double> intersect(const Triangle& triangle, const Ray& ray) {
   const Vec E2 = triangle.v2 - triangle.v0;   // (4)
   const Vec& D = ray.direction;               // (5)
   const Vec P = cross(D, E2);                 // (6)
-  const Vec Q = cross(T, E1);                 // (7)
   const double determinant = dot(P, E1);      // (9)
   if (determinant == 0) return std::nullopt;  // parallel to the plane
   const double u = dot(P, T) / determinant;
+  if (!(u >= 0 && u <= 1)) return std::nullopt;
+  const Vec Q = cross(T, E1);  // (7)
   const double v = dot(Q, D) / determinant;
-  if (!(u >= 0 && v >= 0 && u + v <= 1)) return std::nullopt;
+  if (!(v >= 0 && u + v <= 1)) return std::nullopt;
   return dot(Q, E2) / determinant;
 }
 

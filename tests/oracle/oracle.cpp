@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 namespace norrsken::oracle {
 
@@ -88,23 +89,34 @@ Rgb radiance(const Scene& scene, const Ray& ray, const Settings& settings, Rando
   return trace(scene, ray, settings.bounces, true, settings, random);
 }
 
-statistics::Picture render(const Scene& scene, const Camera& camera, int width, int height, int samples_per_pixel,
-                           const Settings& settings, std::uint64_t seed) {
+statistics::Picture render(const Scene& scene, const Camera& camera, const Settings& settings, const Sampling& sampling,
+                           std::uint64_t seed) {
   Random random(seed);
-  statistics::Picture picture(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  statistics::Picture picture(sampling.width, sampling.height);
+  const int n = sampling.strata;
+  for (int y = 0; y < sampling.height; ++y) {
+    for (int x = 0; x < sampling.width; ++x) {
       Rgb sum;
-      for (int i = 0; i < samples_per_pixel; ++i) {
-        const double fx = (x + uniform(random)) / width, fy = (y + uniform(random)) / height;
+      for (int cell = 0; cell < n * n; ++cell) {
+        const double fx = (x + (cell % n + uniform(random)) / n) / sampling.width;
+        const double fy = (y + (cell / n + uniform(random)) / n) / sampling.height;
         const Vec on_film = camera.top_left + fx * camera.across + fy * camera.down;
         sum += radiance(scene, {camera.eye, on_film - camera.eye}, settings, random);
       }
-      const Rgb mean = sum / samples_per_pixel;
+      const Rgb mean = sum / (n * n);
       picture.at(x, y) = {mean.x, mean.y, mean.z};
     }
   }
   return picture;
+}
+
+statistics::RegionEstimates estimate(const Scene& scene, const Camera& camera, const Settings& settings,
+                                     const Sampling& sampling, std::vector<statistics::Region> regions) {
+  statistics::RegionMeans means(std::move(regions));
+  for (int i = 0; i < sampling.replicates; ++i) {
+    means.add(render(scene, camera, settings, sampling, sampling.first_seed + static_cast<std::uint64_t>(i)));
+  }
+  return means.estimates();
 }
 
 }  // namespace norrsken::oracle

@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <random>
+#include <vector>
 
 #include "tests/oracle/intersect.h"
+#include "tests/statistics/estimate.h"
 #include "tests/statistics/picture.h"
 
 namespace norrsken::oracle {
@@ -22,9 +24,21 @@ struct Settings {
 /// One sample of the radiance that arrives at the ray's origin.
 Rgb radiance(const Scene& scene, const Ray& ray, const Settings& settings, Random& random);
 
-/// An image of independent samples, `samples_per_pixel` in each pixel, uniform over its square. One image is one
-/// replicate: statistics::RegionMeans turns several, of different seeds, into means with standard errors.
-statistics::Picture render(const Scene& scene, const Camera& camera, int width, int height, int samples_per_pixel,
-                           const Settings& settings, std::uint64_t seed);
+/// How many samples: `replicates` images of width x height pixels, each with seeds of its own from `first_seed` on,
+/// with `strata` x `strata` samples in a pixel, one at random in each cell of its square.
+struct Sampling {
+  int width = 0, height = 0;
+  int strata = 1;
+  int replicates = 1;
+  std::uint64_t first_seed = 1;
+};
+
+/// The replicate of that seed.
+statistics::Picture render(const Scene& scene, const Camera& camera, const Settings& settings, const Sampling& sampling,
+                           std::uint64_t seed);
+
+/// Mean radiance of each region with its standard error.
+statistics::RegionEstimates estimate(const Scene& scene, const Camera& camera, const Settings& settings,
+                                     const Sampling& sampling, std::vector<statistics::Region> regions);
 
 }  // namespace norrsken::oracle

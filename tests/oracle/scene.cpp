@@ -81,10 +81,25 @@ Scene closed_box(const Material& material, const Rgb& emission) {
   return scene;
 }
 
-Scene lamp_box() {
+namespace {
+
+Scene box_with_sphere() {
   Scene scene = closed_box(diffuse(0.3, 0.5, 0.7), {});
-  scene.add_parallelogram({-1.5, -1.5, 1.4}, {3, 0, 0}, {0, 3, 0}, {}, diffuse(0, 0, 0), {2, 2, 2});
   scene.spheres.push_back({{0.8, 0.2, -0.7}, 0.6, {Material::Kind::mirror, {}}});
+  return scene;
+}
+
+}  // namespace
+
+Scene lamp_box() {
+  Scene scene = box_with_sphere();
+  scene.add_parallelogram({-1.5, -1.5, 1.4}, {3, 0, 0}, {0, 3, 0}, {}, diffuse(0, 0, 0), {2, 2, 2});
+  return scene;
+}
+
+Scene bulb_box() {
+  Scene scene = box_with_sphere();
+  scene.point_lights.push_back({{0.3, -0.4, 0.2}, {3, 2, 1}});
   return scene;
 }
 

@@ -63,6 +63,8 @@ Camera hexagon_room_camera();
 Scene closed_box(const Material& material, const Rgb& emission);
 /// The box with a large lamp below its ceiling and a mirror sphere that casts a caustic.
 Scene lamp_box();
+/// The box with a point light in its middle and the same sphere.
+Scene bulb_box();
 /// Looks along +x from within the box, z up, 90 degrees.
 inline constexpr Camera kInsideBoxCamera{{-1, 0.3, 0.2}, {0, 1.3, 1.2}, {0, -2, 0}, {0, 0, -2}};
 

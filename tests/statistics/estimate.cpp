@@ -18,12 +18,14 @@ Estimate Estimate::from_replicates(std::span<const double> values) {
 
 std::vector<Region> regions_of(int width, int height, std::span<const Grid> grids) {
   std::vector<Region> regions;
-  for (const auto& [n, resolution] : grids) {
-    const std::string sort = n == 1 ? "whole image" : fmt::format("{0} x {0} blocks", n);
-    for (int j = 0; j < n; ++j) {
-      for (int i = 0; i < n; ++i) {
-        regions.push_back({sort, n == 1 ? sort : fmt::format("block ({},{}) of {} x {}", i, j, n, n), width * i / n,
-                           height * j / n, width * (i + 1) / n, height * (j + 1) / n, resolution});
+  for (const auto& [columns, rows, resolution] : grids) {
+    const bool whole = columns == 1 && rows == 1;
+    const std::string sort = whole ? "whole image" : fmt::format("{} x {} blocks", columns, rows);
+    for (int j = 0; j < rows; ++j) {
+      for (int i = 0; i < columns; ++i) {
+        regions.push_back({sort, whole ? sort : fmt::format("block ({},{}) of {} x {}", i, j, columns, rows),
+                           width * i / columns, height * j / rows, width * (i + 1) / columns, height * (j + 1) / rows,
+                           resolution});
       }
     }
   }
@@ -31,8 +33,10 @@ std::vector<Region> regions_of(int width, int height, std::span<const Grid> grid
 }
 
 std::vector<Region> standard_regions(int width, int height) {
-  return regions_of(width, height, std::array{Grid{1, 0.005}, Grid{2, 0.005}, Grid{4, 0.01}});
+  return regions_of(width, height, std::array{Grid{1, 1, 0.005}, Grid{2, 2, 0.005}, Grid{4, 4, 0.01}});
 }
+
+namespace {
 
 Picture::Pixel region_mean(const Picture& picture, const Region& region) {
   Picture::Pixel mean{};
@@ -46,6 +50,17 @@ Picture::Pixel region_mean(const Picture& picture, const Region& region) {
   return mean;
 }
 
+}  // namespace
+
+RegionEstimates RegionEstimates::known(const Picture& picture, std::vector<Region> regions) {
+  RegionEstimates result{std::move(regions), {}};
+  for (const Region& region : result.regions) {
+    const Picture::Pixel mean = region_mean(picture, region);
+    result.values.push_back({Estimate::known(mean[0]), Estimate::known(mean[1]), Estimate::known(mean[2])});
+  }
+  return result;
+}
+
 RegionMeans::RegionMeans(std::vector<Region> regions) : regions_(std::move(regions)), replicates_(regions_.size()) {}
 
 void RegionMeans::add(const Picture& replicate) {
@@ -55,8 +70,25 @@ void RegionMeans::add(const Picture& replicate) {
   }
 }
 
-Estimate RegionMeans::estimate(std::size_t region, std::size_t channel) const {
-  return Estimate::from_replicates(replicates_[region][channel]);
+RegionEstimates RegionMeans::estimates() const {
+  RegionEstimates result{regions_, {}};
+  for (const auto& channels : replicates_) {
+    std::array<Estimate, 3> estimates;
+    for (std::size_t c = 0; c < 3; ++c) estimates[c] = Estimate::from_replicates(channels[c]);
+    result.values.push_back(estimates);
+  }
+  return result;
+}
+
+RegionEstimates RegionMeans::differences(const RegionMeans& other) const {
+  RegionMeans difference = *this;
+  for (std::size_t r = 0; r < replicates_.size(); ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      auto& values = difference.replicates_[r][c];
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] -= other.replicates_.at(r)[c].at(i);
+    }
+  }
+  return difference.estimates();
 }
 
 }  // namespace norrsken::statistics

@@ -30,9 +30,9 @@ struct Region {
   double resolution = 0;  ///< the smallest relative bias that a comparison here has to be able to see
 };
 
-/// An image cut into `n` x `n` blocks.
+/// An image cut into `columns` x `rows` regions.
 struct Grid {
-  int n = 1;
+  int columns = 1, rows = 1;
   double resolution = 0;
 };
 std::vector<Region> regions_of(int width, int height, std::span<const Grid> grids);
@@ -40,18 +40,26 @@ std::vector<Region> regions_of(int width, int height, std::span<const Grid> grid
 /// The whole image and its quadrants, which must resolve a bias of 0.5 %, and 4 x 4 blocks, which must resolve 1 %.
 std::vector<Region> standard_regions(int width, int height);
 
-/// Mean of the pixels of a region.
-Picture::Pixel region_mean(const Picture& picture, const Region& region);
+/// Means of R, G, B in every region.
+struct RegionEstimates {
+  std::vector<Region> regions;
+  std::vector<std::array<Estimate, 3>> values;  ///< one for each region
 
-/// Collects replicates of one image and tells the mean of every region and channel.
+  /// Of an image that is free of noise.
+  static RegionEstimates known(const Picture& picture, std::vector<Region> regions);
+};
+
+/// Collects replicates of one image.
 class RegionMeans {
  public:
   explicit RegionMeans(std::vector<Region> regions);
 
   void add(const Picture& replicate);
 
-  const std::vector<Region>& regions() const { return regions_; }
-  Estimate estimate(std::size_t region, std::size_t channel) const;
+  RegionEstimates estimates() const;
+  /// Of the differences to `other`, replicate by replicate: for replicates that share their random numbers, so that
+  /// they differ less from each other than from replicates of their own side.
+  RegionEstimates differences(const RegionMeans& other) const;
 
  private:
   std::vector<Region> regions_;

@@ -29,6 +29,10 @@ struct Comparison {
 /// single precision costs.
 Comparison compare(const Estimate& tested, const Estimate& reference, double resolution, double level, double rounding);
 
+/// The same for an estimate of the difference of two that were drawn in pairs; `reference` tells its scale.
+Comparison compare_paired(const Estimate& difference, double reference, double resolution, double level,
+                          double rounding);
+
 /// Gathers the comparisons of one test. The suite as a whole falsely rejects with probability 1 %, so each family of
 /// comparisons is entered with its size in suite.h.
 class Judge {
@@ -38,18 +42,18 @@ class Judge {
 
   explicit Judge(std::string_view family);
 
-  /// Every region and channel of two sets of replicates of the same regions. `what` precedes their names.
-  void compare(const std::string& what, const RegionMeans& tested, const RegionMeans& reference);
-  /// Every region and channel against an image known without error.
-  void compare(const std::string& what, const RegionMeans& tested, const Picture& known);
+  /// Every region and channel of two images. `what` precedes the regions' names; the tested side's say what has to be
+  /// resolved.
+  void compare(const std::string& what, const RegionEstimates& tested, const RegionEstimates& reference);
+  /// The same for replicates that share their random numbers pair by pair.
+  void compare_paired(const std::string& what, const RegionMeans& tested, const RegionMeans& reference);
 
   /// Prints the smallest biases this judge could have seen; fails if any pair disagrees (naming it, and by how many
   /// standard errors), if a comparison was too coarse, or if their number is not the one in suite.h.
   ::testing::AssertionResult verdict() const;
 
  private:
-  void compare(const std::string& what, const Region& region, std::size_t channel, const Estimate& tested,
-               const Estimate& reference);
+  void add(const std::string& what, const Region& region, std::size_t channel, Comparison comparison);
 
   std::string family_;
   int planned_ = 0;

@@ -53,15 +53,16 @@ TEST(RegionMeans, AveragesTheRightPixels) {
   Picture picture(4, 4);
   picture.at(3, 0) = {16, 0, 0};  // top right
   picture.at(0, 3) = {0, 32, 0};  // bottom left
-  RegionMeans means(regions_of(4, 4, std::array{Grid{1, 1}, Grid{2, 1}}));
+  RegionMeans means(regions_of(4, 4, std::array{Grid{1, 1, 1}, Grid{2, 2, 1}}));
   means.add(picture);
   means.add(picture);
-  EXPECT_DOUBLE_EQ(means.estimate(0, 0).mean, 1);
-  EXPECT_DOUBLE_EQ(means.estimate(0, 1).mean, 2);
-  EXPECT_EQ(means.regions()[2].name, "block (1,0) of 2 x 2");
-  EXPECT_DOUBLE_EQ(means.estimate(2, 0).mean, 4);
-  EXPECT_DOUBLE_EQ(means.estimate(3, 1).mean, 8);
-  EXPECT_DOUBLE_EQ(means.estimate(1, 0).mean, 0);
+  const RegionEstimates estimates = means.estimates();
+  EXPECT_DOUBLE_EQ(estimates.values[0][0].mean, 1);
+  EXPECT_DOUBLE_EQ(estimates.values[0][1].mean, 2);
+  EXPECT_EQ(estimates.regions[2].name, "block (1,0) of 2 x 2");
+  EXPECT_DOUBLE_EQ(estimates.values[2][0].mean, 4);
+  EXPECT_DOUBLE_EQ(estimates.values[3][1].mean, 8);
+  EXPECT_DOUBLE_EQ(estimates.values[1][0].mean, 0);
 }
 
 /// Replicates of a skewed quantity of mean 1 and the given relative error: averages of 100 exponential variables, a
@@ -148,7 +149,7 @@ RegionMeans synthetic(double noise, double bias_of_a_block, std::uint64_t seed) 
 
 std::string verdict_on(double noise, double bias) {
   Judge judge("judge.synthetic");
-  judge.compare("synthetic", synthetic(noise, bias, 1), synthetic(noise, 0, 2));
+  judge.compare("synthetic", synthetic(noise, bias, 1).estimates(), synthetic(noise, 0, 2).estimates());
   const auto verdict = judge.verdict();
   return verdict ? "agrees" : verdict.message();
 }
@@ -158,6 +159,17 @@ TEST(Judging, VerdictNamesTheBiasedRegion) {
   const std::string complaint = verdict_on(0.01, 0.01);
   EXPECT_NE(complaint.find("synthetic: block (3,0) of 4 x 4, R: off by"), std::string::npos) << complaint;
   EXPECT_EQ(complaint.find(", G: off by"), std::string::npos) << complaint;
+}
+
+TEST(Judging, PairsSeeWhatIndependentImagesCannot) {
+  // A noise of 10 % that both sides share hides a bias of 0.1 % from the one judge, not from the other.
+  Judge paired("judge.synthetic");
+  paired.compare_paired("", synthetic(0.1, 0.001, 1), synthetic(0.1, 0, 1));
+  const auto verdict = paired.verdict();
+  ASSERT_FALSE(verdict);
+  EXPECT_NE(std::string(verdict.message()).find("block (3,0) of 4 x 4, R: off by"), std::string::npos);
+  EXPECT_EQ(std::string(verdict.message()).find("could have seen"), std::string::npos);
+  EXPECT_EQ(verdict_on(0.1, 0.001).find("off by"), std::string::npos);
 }
 
 TEST(Judging, VerdictRefusesAComparisonThatIsTooCoarse) {

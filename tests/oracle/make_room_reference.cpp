@@ -1,0 +1,27 @@
+// Writes tests/oracle/room_reference.txt to standard output: make_room_reference STRATA [CASE]...
+// Takes about (STRATA / 28)^2 times a quarter of an hour for all cases.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/oracle/room_reference.h"
+
+int main(int argc, char** argv) {
+  using namespace norrsken::oracle;
+  constexpr int kReplicates = 24;
+  constexpr std::uint64_t kFirstSeed = 1000;
+  const int strata = argc > 1 ? std::atoi(argv[1]) : 0;
+  if (strata < 1) {
+    fmt::print(stderr, "usage: make_room_reference STRATA [CASE]...\n");
+    return 64;
+  }
+  for (const RoomCase& room : room_cases()) {
+    const auto asked = [&](const char* name) { return room.name == name; };
+    if (argc > 2 && std::none_of(argv + 2, argv + argc, asked)) continue;
+    fmt::print("{}", room_reference_lines(room.name, estimate_room(room, strata, kReplicates, kFirstSeed)));
+    std::fflush(stdout);
+  }
+  return 0;
+}
