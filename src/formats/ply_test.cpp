@@ -71,7 +71,7 @@ TEST(Ply, EveryTypeAndWhatIsSkipped) {
                         "property int s\r\nproperty float t\r\nproperty list int8 double weights\r\nend_header\r\n";
     bytes += bytes_of<std::uint16_t>(2, big) + bytes_of<std::int16_t>(7, big) + bytes_of<std::int16_t>(8, big) + "i";
     bytes += bytes_of<std::int16_t>(-1, big) + bytes_of<std::uint32_t>(3, big);
-    for (const std::uint16_t index : {0, 1, 2}) bytes += bytes_of(index, big);
+    for (const int index : {0, 1, 2}) bytes += bytes_of(static_cast<std::uint16_t>(index), big);
     for (int i = 0; i < 3; ++i) {
       bytes += bytes_of(0.5 + i, big) + bytes_of(static_cast<std::int8_t>(-i), big);
       bytes += bytes_of<std::uint32_t>(3000000000u, big) + bytes_of(std::nanf(""), big);

@@ -1,7 +1,7 @@
 // Model       A sphere that emits the same radiance in all directions from its outside.
 // Parameters  radiance (linear sRGB, W / (m^2 sr))
-// Measure     pdf_sa: uniform over the cone of directions in which the sphere is seen; from inside or on it, uniform
-//             over the area
+// Measure     pdf_sa: uniform over the cone of directions in which the sphere is seen; for a flipped sphere, which
+//             shines inwards, uniform over the area
 // Source      Wang 1992; Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., section 6.2.4
 // Departures  1 - cos of the cone is computed without cancellation, so small far spheres stay exact
 #pragma once
@@ -23,9 +23,10 @@ struct SphereAreaLight {
     const Vec3f axis = light.origin - reference;
     const Float distance2 = dot(axis, axis);
     const Float sin2 = radius * radius / distance2;
-    const Mask outside = sin2 < Float(1.0f);
+    // By the light's side, not by where rounding put the reference: a flipped sphere lights itself too.
+    const Mask cone = (!flipped) & (sin2 < Float(1.0f));
 
-    // Outside: a direction of the cone, then its entry point.
+    // A direction of the cone, then its entry point.
     const Float h = one_minus_cos(sin2);
     const Frame frame = make_frame(axis * (Float(1.0f) / sqrt(distance2)));
     const Vec3f local = warp_to_cone(u, h);
@@ -36,22 +37,22 @@ struct SphereAreaLight {
         fnma(rejected.y, rejected.y, fnma(rejected.z, rejected.z, radius * radius))), Float(0.0f)));
     const Vec3f entry = normalize(fma(direction, closest - half_chord, -axis));
 
-    // Inside: a point of the area.
+    // A point of the area.
     const Float z = fnma(Float(2.0f), u.x, Float(1.0f));
     const Float r = sqrt(max(fnma(z, z, Float(1.0f)), Float(0.0f)));
     const SinCos phi = sin_cos_turns(u.y);
     const Vec3f anywhere{r * phi.cos, r * phi.sin, z};
 
-    const Vec3f normal = select(outside, entry, anywhere);
+    const Vec3f normal = select(cone, entry, anywhere);
     const Vec3f point = fma(normal, radius, light.origin);
     const Vec3f to_light = point - reference;
     const Float d2 = dot(to_light, to_light);
     const Float area_pdf =
         pdf_sa_from_pdf_area(Float(1.0f) / light.area, d2, abs(dot(to_light, normal)) / sqrt(d2));
     const Float scale = max(abs(point.x), max(abs(point.y), abs(point.z))) + radius;
-    const Float side = select(outside, Float(1.0f), Float(-1.0f));
-    return {fma(normal, side * scale * Float(64.0f * 0x1p-24f), point), select(outside, cone_pdf_sa(h), area_pdf),
-            light.emission, outside ^ flipped};
+    const Float side = select(cone, Float(1.0f), Float(-1.0f));
+    return {fma(normal, side * scale * Float(64.0f * 0x1p-24f), point), select(cone, cone_pdf_sa(h), area_pdf),
+            light.emission, cone | (flipped & (dot(to_light, normal) > Float(0.0f)))};
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const Light& light, const Vec3f& reference, const Vec3f& direction,
@@ -62,7 +63,8 @@ struct SphereAreaLight {
     const Vec3f normal = (fma(direction, distance, -axis)) * (Float(1.0f) / radius);
     const Float area_pdf =
         pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, abs(dot(direction, normal)));
-    return select(sin2 < Float(1.0f), cone_pdf_sa(one_minus_cos(sin2)), area_pdf);
+    const Mask cone = (!(light.edge1.y > Float(0.0f))) & (sin2 < Float(1.0f));
+    return select(cone, cone_pdf_sa(one_minus_cos(sin2)), area_pdf);
   }
 };
 
