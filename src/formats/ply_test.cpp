@@ -141,33 +141,33 @@ TEST(PlyErrors, WhatAMeshNeeds) {
 }
 
 TEST(PlyErrors, AsciiBody) {
-  EXPECT_EQ(complaints(header("ascii") + "0 0 0\n1 x 0\n"), R"(a.ply:10:3: error: 'x' is no number
-   10 | 1 x 0
+  EXPECT_EQ(complaints(header("ascii") + "0 0 0\n1 x 0\n"), R"(a.ply:11:3: error: 'x' is no number
+   11 | 1 x 0
       |   ^
 accepted: values as the header says)");
-  EXPECT_EQ(complaints(header("ascii") + kCorners + "3 0 1 1.5\n"), R"(a.ply:12:7: error: '1.5' is no integer
-   12 | 3 0 1 1.5
+  EXPECT_EQ(complaints(header("ascii") + kCorners + "3 0 1 1.5\n"), R"(a.ply:13:7: error: '1.5' is no integer
+   13 | 3 0 1 1.5
       |       ^~~
 accepted: values as the header says)");
   EXPECT_EQ(complaints(header("ascii", "3", "3") + "0 nan 0\n1 0 1e20\n1 1 0\n3 0 1 3\n3 0 -1 2\n2 0 1\n"),
-            R"(a.ply:9:3: error: 'y' of vertex 0 is nan
-    9 | 0 nan 0
+            R"(a.ply:10:3: error: 'y' of vertex 0 is nan
+   10 | 0 nan 0
       |   ^~~
 accepted: a number from -1e+15 to 1e+15
-a.ply:10:5: error: 'z' of vertex 1 is 1e20
-   10 | 1 0 1e20
+a.ply:11:5: error: 'z' of vertex 1 is 1e20
+   11 | 1 0 1e20
       |     ^~~~
 accepted: a number from -1e+15 to 1e+15
-a.ply:12:7: error: face 0 has a vertex 3
-   12 | 3 0 1 3
+a.ply:13:7: error: face 0 has a vertex 3
+   13 | 3 0 1 3
       |       ^
 accepted: 0 to 2
-a.ply:13:5: error: face 1 has a vertex -1
-   13 | 3 0 -1 2
+a.ply:14:5: error: face 1 has a vertex -1
+   14 | 3 0 -1 2
       |     ^~
 accepted: 0 to 2
-a.ply:14:1: error: face 2 has 2 vertices
-   14 | 2 0 1
+a.ply:15:1: error: face 2 has 2 vertices
+   15 | 2 0 1
       | ^
 accepted: at least 3 vertices)");
   EXPECT_EQ(complaints(header("ascii") + kCorners + "3 0 1\n"),
