@@ -60,6 +60,7 @@ NORRSKEN_INLINE void closest_in_planes_of_axis(const AccelView& accel, const Pla
     const PlaneRecord& plane = accel.planes[i];
     const PlaneCrossing c = cross_plane(plane, r);
     const Mask closer = (c.t > Float(0.0f)) & (c.t < hit.t);
+    if (none(closer)) continue;
     const Float u = fma(c.t, r.du, r.ou), v = fma(c.t, r.dv, r.ov);
     const UInt side = (bits(c.n_dot_d) ^ UInt(plane.back_flip)) & UInt(kBackSide);
     for (std::uint32_t j = 0; j < plane.polygon_count; ++j) {

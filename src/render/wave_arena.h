@@ -10,7 +10,7 @@ namespace norrsken {
 
 /// Slots per wave: small enough that the queues stay in the second-level cache, large enough that the partly filled
 /// last register of every queue does not matter. Measured, see docs/performance.md.
-inline constexpr std::uint32_t kWaveSlots = 2048;
+inline constexpr std::uint32_t kWaveSlots = 1024;
 
 class WaveArena {
  public:
