@@ -8,14 +8,12 @@
 #include "tests/closed_form/plane_scene.h"
 #include "tests/end_to_end/param_name.h"
 #include "tests/end_to_end/rendering.h"
-#include "tests/oracle/oracle.h"
 #include "tests/statistics/judge.h"
 
 namespace norrsken::end_to_end {
 namespace {
 
 using closed_form::PlaneScene;
-using statistics::Grid;
 using statistics::Judge;
 using statistics::Picture;
 using statistics::RegionEstimates;
@@ -104,55 +102,6 @@ TEST(EmittersOnly, AreShownExactly) {
   const Scene scene = load_test_scene("box.xml", {{"contents", "uniform"}, {"max_depth", "1"}});
   const Picture picture = picture_of(render_image(scene, {.samples_per_pixel = 7, .threads = kThreads}));
   for (const Picture::Pixel& pixel : picture.pixels) EXPECT_EQ(pixel, (Picture::Pixel{1, 2, 0.5}));
-}
-
-/// The box of box.xml against the oracle's, whose paths may scatter `bounces` times.
-void expect_oracle_box(Judge& judge, const std::string& what, const SceneParameters& parameters, int samples_per_pixel,
-                       const oracle::Scene& box, int bounces, int strata) {
-  const auto regions = statistics::regions_of(kSize, kSize, std::array{Grid{1, 1, 0.005}, Grid{2, 2, 0.02}});
-  judge.compare(
-      what, estimates(load_test_scene("box.xml", parameters), samples_per_pixel, regions),
-      oracle::estimate(box, oracle::kInsideBoxCamera, {.bounces = bounces}, {kSize, kSize, strata, kSeeds}, regions));
-}
-
-TEST(OracleBox, LampShowsTheSameRadiance) {
-  Judge judge("box.lamp");
-  for (const int bounces : {1, 2, 3}) {
-    expect_oracle_box(judge, std::to_string(bounces) + " bounces",
-                      {{"contents", "lamp"}, {"max_depth", std::to_string(bounces + 1)}}, 512, oracle::lamp_box(),
-                      bounces, 14);
-  }
-  EXPECT_TRUE(judge.verdict());
-}
-
-TEST(OracleBox, BulbShowsTheSameRadiance) {
-  Judge judge("box.bulb");
-  for (const int bounces : {1, 2, 3, 4}) {
-    expect_oracle_box(judge, std::to_string(bounces) + " bounces",
-                      {{"contents", "bulb"}, {"max_depth", std::to_string(bounces + 1)}}, 512, oracle::bulb_box(),
-                      bounces, 13);
-  }
-  EXPECT_TRUE(judge.verdict());
-}
-
-RegionEstimates lamp_box(const char* max_depth, const char* rr_depth) {
-  return estimates(load_test_scene("box.xml", {{"max_depth", max_depth}, {"rr_depth", rr_depth}}), 512,
-                   statistics::regions_of(kSize, kSize, std::array{Grid{1, 1, 0.005}, Grid{2, 2, 0.02}}));
-}
-
-TEST(RussianRoulette, IsUnbiased) {
-  Judge judge("russian_roulette");
-  const RegionEstimates without = lamp_box("8", "1000");
-  judge.compare("from depth 1", lamp_box("8", "1"), without);
-  judge.compare("from depth 5", lamp_box("8", "5"), without);
-  EXPECT_TRUE(judge.verdict());
-}
-
-TEST(UnboundedPaths, FindAllOfTheLight) {
-  // What paths of 30 hits leave out is less than 0.7^30 of the light.
-  Judge judge("unbounded_paths");
-  judge.compare("", lamp_box("-1", "5"), lamp_box("31", "1000"));
-  EXPECT_TRUE(judge.verdict());
 }
 
 class Mirror : public ::testing::TestWithParam<const char*> {};

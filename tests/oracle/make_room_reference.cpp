@@ -1,5 +1,5 @@
 // Writes tests/oracle/room_reference.txt to standard output: make_room_reference STRATA [CASE]...
-// Takes about (STRATA / 28)^2 times a quarter of an hour for all cases.
+// Takes about (STRATA / 16)^2 times five minutes for all cases.
 #include <fmt/core.h>
 
 #include <algorithm>

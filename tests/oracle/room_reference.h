@@ -22,7 +22,7 @@ inline constexpr int kRoomSize = 64;  ///< pixels a side
 
 /// The regions in which the room is compared, finer from grid to grid, with the bias that has to be seen in each.
 struct RoomResolution {
-  double whole = 0.005, half = 0.005, quadrant = 0.01, block = 0.05;
+  double whole = 0.005, half = 0.0075, quadrant = 0.015, block = 0.08;
 };
 std::vector<statistics::Region> room_regions(const RoomResolution& resolution);
 
