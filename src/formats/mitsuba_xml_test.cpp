@@ -309,7 +309,7 @@ TEST(HostileXml, ThousandsOfErrorsAreCutShortQuickly) {
   read_scene(refs + "</scene>", {}, more);
   EXPECT_LE(more.all().size(), 101u);
   EXPECT_GT(more.error_count(), 10);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
 TEST(HostileXml, BytesThatAreNoTextAreNamed) {

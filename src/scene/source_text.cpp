@@ -32,8 +32,9 @@ SourceLocation SourceText::location(std::size_t offset, std::size_t length) cons
   offset = std::min(offset, text_.size());
   const auto next_line = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
   const std::size_t start = *(next_line - 1);
-  std::string_view line = text_.substr(start);
-  line = line.substr(0, line.find('\n'));
+  // Not searched for: a file of one huge line is asked for many places.
+  const std::size_t end = next_line != line_starts_.end() ? *next_line - 1 : text_.size();
+  std::string_view line = text_.substr(start, end - start);
   if (line.ends_with('\r')) line.remove_suffix(1);
 
   SourceLocation result = location();
@@ -48,9 +49,9 @@ SourceLocation SourceText::location(std::size_t offset, std::size_t length) cons
     first = before > kExcerptBefore ? before - kExcerptBefore : 0;
     first = std::min(first, line.size() - kExcerptBytes);
     while (first > 0 && is_continuation(line[first])) --first;
-    std::size_t end = std::min(first + kExcerptBytes, line.size());
-    while (end < line.size() && end > first && is_continuation(line[end])) --end;
-    line = line.substr(first, end - first);
+    std::size_t last = std::min(first + kExcerptBytes, line.size());
+    while (last < line.size() && last > first && is_continuation(line[last])) --last;
+    line = line.substr(first, last - first);
   }
   result.excerpt = std::string(line);
   result.excerpt_column = to_int(first + 1);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 namespace norrsken {
 namespace {
 
@@ -50,6 +52,15 @@ TEST(SourceText, ExcerptsOfHugeLinesAreBounded) {
     EXPECT_LT(location.column, location.excerpt_column + static_cast<int>(location.excerpt.size()));
     EXPECT_EQ(location.column, static_cast<int>(offset) + 1);
   }
+}
+
+TEST(SourceText, ManyPlacesInOneHugeLineAreCheap) {
+  const std::string line(8 << 20, 'x');
+  const SourceText text("a.xml", line);
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t i = 0; i < 100000; ++i) EXPECT_EQ(text.location(i * 80).line, 1);
+  // Looking at the whole line each time would be 8e11 bytes.
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
 }  // namespace
