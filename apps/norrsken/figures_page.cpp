@@ -22,6 +22,7 @@ body { margin: 0 auto; padding: 2.5rem 1.5rem 4rem; max-width: 82rem; background
 h1 { font-size: 2rem; line-height: 1.2; margin: 0 0 .6rem; }
 h2 { font-size: 1.35rem; margin: 3rem 0 1rem; }
 p { max-width: 48rem; margin: .5rem 0; }
+a { color: var(--one-ray); }
 code { font: .9em/1.4 ui-monospace, "Liberation Mono", "DejaVu Sans Mono", monospace; overflow-wrap: anywhere; }
 .soft { color: var(--soft); }
 .grid-of-figures { display: grid; gap: 1.25rem; grid-template-columns: repeat(auto-fill, minmax(19rem, 1fr)); }
@@ -34,7 +35,7 @@ figcaption strong { margin-right: .35rem; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem .9rem; margin: .6rem 0 0; font-size: .9rem; }
 dt { color: var(--soft); }
 dd { margin: 0; font-variant-numeric: tabular-nums; }
-.result { font-size: 1.15rem; max-width: 56rem; }
+.result { font-size: 1.15rem; max-width: 56rem; margin-bottom: 1.25rem; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .35rem .7rem; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--rule); }
@@ -44,7 +45,8 @@ th:first-child, td:first-child { text-align: left; }
 svg { display: block; width: 100%; height: auto; }
 svg text { fill: var(--text); font-size: 13px; }
 svg .tick { fill: var(--soft); font-size: 12px; }
-svg .point { font-size: 12px; paint-order: stroke; stroke: var(--card); stroke-width: 4px; stroke-linejoin: round; }
+svg .point, svg .legend { paint-order: stroke; stroke: var(--card); stroke-width: 4px; stroke-linejoin: round; }
+svg .point { font-size: 12px; }
 svg .grid { stroke: var(--rule); stroke-width: 1; }
 svg .axis { fill: none; stroke: var(--soft); stroke-width: 1.2; }
 svg .line { fill: none; stroke-width: 2.2; }
@@ -84,11 +86,10 @@ std::string figure_card(const FigureResult& result, int width) {
   html += row("Rays", count_of_rays(result));
   html += row("Speed", msamples_per_second(result) + " Msamples/s");
   if (result.reference.empty()) {
-    html += row("Own error", format_percent(result.statistics.relative_error) + " (estimated)");
+    html += row("Own error", format_percent(result.relative_error()) + " (estimated)");
   } else {
-    html +=
-        row("Error", fmt::format("{} relative RMSE, relMSE {:.3g}, FLIP {:.3f}", format_percent(result.relative_rmse()),
-                                 result.comparison.rel_mse, result.comparison.flip));
+    html += row("Error", fmt::format("{} (relMSE {:.3g}), FLIP {:.3f}", format_percent(result.relative_error()),
+                                     result.comparison.rel_mse, result.comparison.flip));
   }
   html += fmt::format("</dl>\n<p class=\"soft\"><a href=\"{0}.exr\">{0}.exr</a></p></figcaption>\n</figure>\n", file);
   return html;
@@ -97,11 +98,11 @@ std::string figure_card(const FigureResult& result, int width) {
 std::string table_row(const FigureResult& result) {
   return fmt::format(
       "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-      "<td>{:.3g}</td><td>{:.3f}</td></tr>\n",
+      "<td>{:.3g}</td><td>{}</td><td>{:.3f}</td></tr>\n",
       escape_html(result.name), escape_html(result.light), escape_html(result.integrator), result.spp,
       result.shadow_rays, format_duration(result.statistics.seconds), count_of_rays(result),
-      msamples_per_second(result), format_percent(result.relative_rmse()), result.comparison.rel_mse,
-      result.comparison.flip);
+      msamples_per_second(result), format_percent(result.relative_error()), result.comparison.rel_mse,
+      format_percent(result.relative_rmse()), result.comparison.flip);
 }
 
 /// The figures that vary nothing but the counts, with as many shadow rays as samples; 7 and 10 are the same, and the
@@ -119,7 +120,7 @@ std::vector<FigureResult> literal_series(const FiguresReport& report) {
 std::string plot(const FiguresReport& report, bool against_time) {
   const auto point = [&](const FigureResult& result, std::string label) {
     return PlotPoint{.x = against_time ? result.statistics.seconds : result.spp,
-                     .y = 100 * result.relative_rmse(),
+                     .y = 100 * result.relative_error(),
                      .label = std::move(label)};
   };
   PlotSeries literal{.name = "as many shadow rays as samples (the report)", .css_class = "literal", .points = {}};
@@ -132,23 +133,24 @@ std::string plot(const FiguresReport& report, bool against_time) {
     one_ray.points.push_back(point(result, fmt::format("{} spp", result.spp)));
   return svg_log_log_plot({.title = against_time ? "Error against time" : "Error against samples per pixel",
                            .x_label = against_time ? "rendering time, seconds" : "samples per pixel",
-                           .y_label = "relative RMSE, percent",
+                           .y_label = "error, percent",
                            .series = {literal, one_ray}});
 }
 
 std::string equal_error_section(const FiguresReport& report) {
   if (!report.equal) return "";
   const FigureResult &last = report.figures.back(), &equal = report.one_ray[*report.equal];
-  const double faster = last.statistics.seconds / equal.statistics.seconds;
   std::string html = fmt::format(
-      "<h2>{} and the same error with one shadow ray per hit</h2>\n"
-      "<p class=\"result\">{} with {} and {} per hit takes {} and is {} off. With one shadow ray per hit, {} per "
-      "pixel are {} off after {}: {:.3g} times as many samples, a {} of the time.</p>\n",
-      escape_html(last.name), escape_html(last.name), plural(last.spp, "sample"),
-      plural(last.shadow_rays, "shadow ray"), format_duration(last.statistics.seconds),
-      format_percent(last.relative_rmse()), plural(equal.spp, "sample"), format_percent(equal.relative_rmse()),
-      format_duration(equal.statistics.seconds), static_cast<double>(equal.spp) / last.spp,
-      fmt::format("{:.0f}th", faster));
+      "<h2>{0} and the same error with one shadow ray per hit</h2>\n"
+      "<p class=\"result\">{0} takes {1} for {2} with {3} per hit, and its error is {4}. With one shadow ray "
+      "per "
+      "hit, {5} per pixel come to {6} in <strong>{7}</strong>: {8:.3g} times as many samples, <strong>{9:.3g} times as "
+      "fast</strong>. More shadow rays smooth the direct light only: the noise of indirect light and of "
+      "what the sphere reflects needs more samples.</p>\n",
+      escape_html(last.name), format_duration(last.statistics.seconds), plural(last.spp, "sample"),
+      plural(last.shadow_rays, "shadow ray"), format_percent(last.relative_error()), plural(equal.spp, "sample"),
+      format_percent(equal.relative_error()), format_duration(equal.statistics.seconds),
+      static_cast<double>(equal.spp) / last.spp, last.statistics.seconds / equal.statistics.seconds);
   html += "<div class=\"pair\">\n" + figure_card(last, report.width) + figure_card(equal, report.width) + "</div>\n";
   return html;
 }
@@ -158,6 +160,8 @@ std::string equal_error_section(const FiguresReport& report) {
 double FigureResult::samples_per_second() const {
   return statistics.seconds > 0 ? static_cast<double>(statistics.samples) / statistics.seconds : 0;
 }
+
+double FigureResult::relative_error() const { return std::sqrt(comparison.rel_mse); }
 
 double FigureResult::relative_rmse() const {
   return comparison.mean_b > 0 ? std::sqrt(comparison.mse) / comparison.mean_b : 0;
@@ -190,14 +194,15 @@ std::string figures_page(const FiguresReport& report) {
   html +=
       "</div>\n<h2>All measurements</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th></th><th>light</th>"
       "<th>integrator</th><th>samples</th><th>shadow rays</th><th>time</th><th>rays</th><th>Msamples/s</th>"
-      "<th>relative RMSE</th><th>relMSE</th><th>FLIP</th></tr></thead>\n<tbody>\n";
+      "<th>error</th><th>relMSE</th><th>relative RMSE</th><th>FLIP</th></tr></thead>\n<tbody>\n";
   for (const FigureResult& figure : report.figures) html += table_row(figure);
   for (const FigureResult& result : report.one_ray) html += table_row(result);
   html +=
       "</tbody></table></div>\n"
-      "<p class=\"soft\">Relative RMSE is the root mean square error of linear radiance over the mean of the "
-      "reference; relMSE the mean of (a − b)² / (b² + 0.01); FLIP the mean LDR-FLIP of the tone-mapped images. "
-      "Rays are all rays traced, to closest hits and to lights.</p>\n"
+      "<p class=\"soft\">The error is the root of relMSE, and relMSE the mean of (a − b)² / (b² + 0.01) over pixels "
+      "and channels of linear radiance, b being the reference. Relative RMSE is the root mean square of a − b over "
+      "the mean of b; the few pixels at the edge of a light weigh most in it. FLIP is the mean LDR-FLIP of the "
+      "tone-mapped images. Rays are all rays traced, to closest hits and to lights.</p>\n"
       "<h2>References</h2>\n<p>What the figures were compared with. The error that is left in a reference is its "
       "own estimate.</p>\n<div class=\"grid-of-figures\">\n";
   for (const FigureResult& reference : report.references) html += figure_card(reference, report.width);

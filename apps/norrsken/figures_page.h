@@ -19,11 +19,13 @@ struct FigureResult {
   int spp = 0, shadow_rays = 0;
   std::string reference = {};  ///< name of the reference it was compared with
   RenderStatistics statistics = {};
-  Comparison comparison = {};
+  Comparison comparison = {};  ///< with the reference; a reference's own holds its estimated mse and rel_mse
 
   std::uint64_t rays() const { return statistics.closest_rays + statistics.shadow_rays; }
   double samples_per_second() const;
-  /// Root mean square error over the reference's mean.
+  /// Root of relMSE: root mean square of (a - b) / sqrt(b^2 + 0.01) over pixels and channels.
+  double relative_error() const;
+  /// Root mean square error over the reference's mean. A few pixels at the edge of a light can make most of it.
   double relative_rmse() const;
 };
 
@@ -31,9 +33,9 @@ struct FiguresReport {
   std::string command;  ///< as typed, to do it again
   std::string machine;  ///< name of the processor; may be empty
   int width = 0, height = 0;
-  std::vector<FigureResult> references;  ///< without comparison
-  std::vector<FigureResult> figures;     ///< in order
-  std::vector<FigureResult> one_ray;     ///< the area light with one shadow ray per hit, by samples
+  std::vector<FigureResult> references;
+  std::vector<FigureResult> figures;  ///< in order
+  std::vector<FigureResult> one_ray;  ///< the area light with one shadow ray per hit, by samples
   /// Of `one_ray`: the one whose error is that of the last figure.
   std::optional<std::size_t> equal;
 };

@@ -27,7 +27,7 @@ struct Axis {
   /// Leaves room around the data for markers and labels; at least half a decade in all.
   void pad() {
     if (log_min > log_max) log_min = log_max = 0;
-    const double room = std::max(0.10 * (log_max - log_min), 0.25 - 0.5 * (log_max - log_min));
+    const double room = std::max(0.14 * (log_max - log_min), 0.25 - 0.5 * (log_max - log_min));
     log_min -= room;
     log_max += room;
   }

@@ -19,6 +19,7 @@ std::string three_digits(double value) {
 
 std::string format_duration(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0) return "?";
+  if (seconds > 0 && seconds < 0.0995) return fmt::format("{:.2g} ms", 1e3 * seconds);
   if (seconds < 59.95) return three_digits(seconds) + " s";
   const double rounded = std::round(seconds);
   if (rounded < 3600) return fmt::format("{:.0f} min {:02.0f} s", std::floor(rounded / 60), std::fmod(rounded, 60.0));

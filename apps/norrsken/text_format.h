@@ -6,7 +6,8 @@
 
 namespace norrsken::cli {
 
-/// "0.42 s", "12.3 s", "4 min 07 s", "7 h 03 min", "2 d 04 h". Negative and unknown (not finite) times are "?".
+/// "1.7 ms", "0.42 s", "12.3 s", "4 min 07 s", "7 h 03 min", "2 d 04 h". Negative and unknown (not finite) times are
+/// "?".
 std::string format_duration(double seconds);
 
 /// A count with three significant digits and an SI suffix: "950", "12.3 k", "41.0 M", "43.1 G".
