@@ -53,7 +53,7 @@ Filter normalized(Filter filter) {
 /// The plane filtered along x, then along y; beyond the border it goes on with the border's values.
 Plane filtered(const Plane& in, int width, int height, const Filter& along_x, const Filter& along_y) {
   Plane between(in.size(), 0.0f), out(in.size(), 0.0f);
-  std::vector<float> padded(static_cast<std::size_t>(width) + 2 * along_x.radius);
+  std::vector<float> padded(static_cast<std::size_t>(width + 2 * along_x.radius));
   for (int y = 0; y < height; ++y) {
     const float* row = in.data() + static_cast<std::size_t>(y) * width;
     std::fill_n(padded.begin(), along_x.radius, row[0]);
