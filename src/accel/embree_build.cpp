@@ -11,7 +11,6 @@ namespace norrsken {
 namespace {
 
 using isa_host::cross_sphere;
-using isa_host::Float;
 using isa_host::Vec3f;
 
 void sphere_bounds(const RTCBoundsFunctionArguments* args) {

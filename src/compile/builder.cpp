@@ -292,7 +292,7 @@ void Builder::summarise() {
       info.bounds_max[axis] = std::max(info.bounds_max[axis], double{point[axis]} + double{radius});
     }
   };
-  for (const std::uint32_t vertex : t.triangle_vertices) extend(&t.positions[3 * vertex], 0);
+  for (const std::uint32_t vertex : t.triangle_vertices) extend(&t.positions[std::size_t{3} * vertex], 0);
   for (const SurfaceRecord& sphere : spheres_) extend(sphere.geometry, sphere.geometry[3]);
   info.width = t.film.width;
   info.height = t.film.height;

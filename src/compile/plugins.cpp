@@ -3,7 +3,7 @@
 namespace norrsken {
 
 std::span<const Plugin<CompileBsdf>> bsdf_plugins() {
-  static constexpr Plugin<CompileBsdf> table[] = {
+  static constexpr Plugin<CompileBsdf> kTable[] = {
 #define NORRSKEN_BSDF(kind, Model) {#kind, compile_bsdf_##kind},
 #include "bsdf/list.def"
 #undef NORRSKEN_BSDF
@@ -11,70 +11,70 @@ std::span<const Plugin<CompileBsdf>> bsdf_plugins() {
 #include "bsdf/adapters.def"
 #undef NORRSKEN_BSDF_ADAPTER
   };
-  return table;
+  return kTable;
 }
 
 std::span<const Plugin<CompileShape>> shape_plugins() {
-  static constexpr Plugin<CompileShape> table[] = {
+  static constexpr Plugin<CompileShape> kTable[] = {
 #define NORRSKEN_SHAPE(name) {#name, compile_shape_##name},
 #include "shape/plugins.def"
 #undef NORRSKEN_SHAPE
   };
-  return table;
+  return kTable;
 }
 
 std::span<const Plugin<CompileEmitter>> emitter_plugins() {
-  static constexpr Plugin<CompileEmitter> table[] = {
+  static constexpr Plugin<CompileEmitter> kTable[] = {
 #define NORRSKEN_EMITTER(name) {#name, compile_emitter_##name},
 #include "light/plugins.def"
 #undef NORRSKEN_EMITTER
   };
-  return table;
+  return kTable;
 }
 
 std::span<const Plugin<CompileSensor>> sensor_plugins() {
-  static constexpr Plugin<CompileSensor> table[] = {
+  static constexpr Plugin<CompileSensor> kTable[] = {
 #define NORRSKEN_SENSOR(name) {#name, compile_sensor_##name},
 #include "camera/plugins.def"
 #undef NORRSKEN_SENSOR
   };
-  return table;
+  return kTable;
 }
 
 std::span<const Plugin<CompileFilm>> film_plugins() {
-  static constexpr Plugin<CompileFilm> table[] = {
+  static constexpr Plugin<CompileFilm> kTable[] = {
 #define NORRSKEN_FILM(name) {#name, compile_film_##name},
 #include "film/plugins.def"
 #undef NORRSKEN_FILM
   };
-  return table;
+  return kTable;
 }
 
 std::span<const Plugin<CompileSampler>> sampler_plugins() {
-  static constexpr Plugin<CompileSampler> table[] = {
+  static constexpr Plugin<CompileSampler> kTable[] = {
 #define NORRSKEN_SAMPLER(name) {#name, compile_sampler_##name},
 #include "sampler/plugins.def"
 #undef NORRSKEN_SAMPLER
   };
-  return table;
+  return kTable;
 }
 
 std::span<const Plugin<CompileRfilter>> rfilter_plugins() {
-  static constexpr Plugin<CompileRfilter> table[] = {
+  static constexpr Plugin<CompileRfilter> kTable[] = {
 #define NORRSKEN_RFILTER(name) {#name, compile_rfilter_##name},
 #include "rfilter/plugins.def"
 #undef NORRSKEN_RFILTER
   };
-  return table;
+  return kTable;
 }
 
 std::span<const Plugin<CompileIntegrator>> integrator_plugins() {
-  static constexpr Plugin<CompileIntegrator> table[] = {
+  static constexpr Plugin<CompileIntegrator> kTable[] = {
 #define NORRSKEN_INTEGRATOR(name) {#name, compile_integrator_##name},
 #include "integrator/plugins.def"
 #undef NORRSKEN_INTEGRATOR
   };
-  return table;
+  return kTable;
 }
 
 }  // namespace norrsken
