@@ -39,9 +39,10 @@ class EmbreeScene {
   void* scene_ = nullptr;
 };
 
-/// Up to this many primitives the planes win against Embree; measured by `benchmarks/intersect`, see
-/// docs/performance.md.
-inline constexpr std::uint32_t kPlanesUpTo = 128;
+/// Up to how many primitives the planes win against Embree: the planes' rate grows with the register's width, Embree's
+/// (asked ray by ray) does not. Measured by `benchmarks/intersect_benchmark`, see docs/performance.md; one lane
+/// is given the small scenes too, since it serves to debug what the wide ones do.
+constexpr std::uint32_t planes_up_to(std::uint32_t lanes) { return lanes > 3 ? 10 * lanes : 32; }
 
 /// Beyond this many the planes are refused even if asked for: merging is quadratic.
 inline constexpr std::uint32_t kPlanesAtMost = 4096;

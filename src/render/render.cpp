@@ -113,7 +113,7 @@ std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& 
     diagnostics.error({}, "number of threads is " + std::to_string(options.threads),
                       "0 (one per hardware thread) to " + std::to_string(kMaxThreads));
   }
-  const AccelKind accel = choose_accel(options.accelerator, scene.tables().tables, diagnostics);
+  const AccelKind accel = choose_accel(options.accelerator, scene.tables().tables, kernels != nullptr ? kernels->lanes : 1, diagnostics);
   if (diagnostics.has_errors()) return nullptr;
   return std::make_unique<RenderSession>(scene, options, *kernels, accel);
 }

@@ -17,9 +17,10 @@ constexpr struct {
 
 }  // namespace
 
-AccelKind choose_accel(const std::string& name, const SceneTables& tables, Diagnostics& diagnostics) {
+AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes,
+                       Diagnostics& diagnostics) {
   const std::size_t primitives = tables.surfaces.size();
-  const AccelKind automatic = primitives <= kPlanesUpTo ? AccelKind::planes : AccelKind::embree;
+  const AccelKind automatic = primitives <= planes_up_to(lanes) ? AccelKind::planes : AccelKind::embree;
   if (name == "auto") return automatic;
   for (const auto& accel : kAccels) {
     if (name != accel.name) continue;
