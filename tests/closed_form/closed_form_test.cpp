@@ -24,9 +24,9 @@ TEST(ClosedForm, RectangleAboveItsCornerHasTheTextbookFormFactor) {
   // Parallel rectangle a x b at height c above a point under one corner (Howell, catalogue of configuration factors,
   // B-3): F = 1/(2 pi) (A/sqrt(1+A^2) atan(B/sqrt(1+A^2)) + B/sqrt(1+B^2) atan(A/sqrt(1+B^2))), A = a/c, B = b/c.
   for (const auto& [a, b, c] : std::array<std::array<double, 3>, 3>{{{1, 1, 1}, {2, 0.5, 3}, {10, 7, 0.2}}}) {
-    const double A = a / c, B = b / c;
-    const double ra = std::sqrt(1 + A * A), rb = std::sqrt(1 + B * B);
-    const double factor = (A / ra * std::atan(B / ra) + B / rb * std::atan(A / rb)) / (2 * pi);
+    const double wide = a / c, deep = b / c;
+    const double ra = std::sqrt(1 + wide * wide), rb = std::sqrt(1 + deep * deep);
+    const double factor = (wide / ra * std::atan(deep / ra) + deep / rb * std::atan(wide / rb)) / (2 * pi);
     const std::array<Vec, 4> rectangle = {{{0, 0, c}, {a, 0, c}, {a, b, c}, {0, b, c}}};
     EXPECT_NEAR(polygon_irradiance(5, rectangle, {0, 0, 0}, {0, 0, 1}), 5 * pi * factor, 1e-12);
   }

@@ -38,7 +38,7 @@ struct PlaneCase {
   SceneParameters parameters;
 };
 
-void PrintTo(const PlaneCase& c, std::ostream* out) { *out << c.name; }
+std::ostream& operator<<(std::ostream& out, const PlaneCase& c) { return out << c.name; }
 
 class Plane : public ::testing::TestWithParam<PlaneCase> {};
 

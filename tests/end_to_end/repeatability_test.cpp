@@ -34,7 +34,7 @@ struct Case {
   std::string name, sampler, light, accelerator;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
 class Repeatability : public ::testing::TestWithParam<Case> {
  protected:

@@ -10,6 +10,9 @@ namespace {
 constexpr double kEpsilon = 1e-9;
 }  // namespace
 
+// Names are the report's letters.
+// NOLINTBEGIN(readability-identifier-naming)
+
 // Möller and Trumbore 1997, in the report's letters, equations 1 to 9.
 std::optional<double> intersect(const Triangle& triangle, const Ray& ray) {
   const Vec T = ray.origin - triangle.v0;     // (2)
@@ -39,6 +42,8 @@ std::optional<double> intersect(const Sphere& sphere, const Ray& ray) {
   const double t_0 = t_ca - std::sqrt(r_squared - d_squared);
   return t_0 / scale;
 }
+
+// NOLINTEND(readability-identifier-naming)
 
 std::optional<Hit> closest_hit(const Scene& scene, const Ray& ray) {
   const double nearest = kEpsilon / length(ray.direction);

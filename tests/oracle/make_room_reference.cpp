@@ -8,8 +8,9 @@
 
 #include "tests/oracle/room_reference.h"
 
+using norrsken::oracle::RoomCase;
+
 int main(int argc, char** argv) {
-  using namespace norrsken::oracle;
   constexpr int kReplicates = 24;
   constexpr std::uint64_t kFirstSeed = 1000;
   const int strata = argc > 1 ? std::atoi(argv[1]) : 0;
@@ -17,10 +18,11 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "usage: make_room_reference STRATA [CASE]...\n");
     return 64;
   }
-  for (const RoomCase& room : room_cases()) {
+  for (const RoomCase& room : norrsken::oracle::room_cases()) {
     const auto asked = [&](const char* name) { return room.name == name; };
     if (argc > 2 && std::none_of(argv + 2, argv + argc, asked)) continue;
-    fmt::print("{}", room_reference_lines(room.name, estimate_room(room, strata, kReplicates, kFirstSeed)));
+    const auto estimates = norrsken::oracle::estimate_room(room, strata, kReplicates, kFirstSeed);
+    fmt::print("{}", norrsken::oracle::room_reference_lines(room.name, estimates));
     std::fflush(stdout);
   }
   return 0;

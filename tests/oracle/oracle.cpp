@@ -97,11 +97,13 @@ statistics::Picture render(const Scene& scene, const Camera& camera, const Setti
   for (int y = 0; y < sampling.height; ++y) {
     for (int x = 0; x < sampling.width; ++x) {
       Rgb sum;
-      for (int cell = 0; cell < n * n; ++cell) {
-        const double fx = (x + (cell % n + uniform(random)) / n) / sampling.width;
-        const double fy = (y + (cell / n + uniform(random)) / n) / sampling.height;
-        const Vec on_film = camera.top_left + fx * camera.across + fy * camera.down;
-        sum += radiance(scene, {camera.eye, on_film - camera.eye}, settings, random);
+      for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n; ++i) {
+          const double fx = (x + (i + uniform(random)) / n) / sampling.width;
+          const double fy = (y + (j + uniform(random)) / n) / sampling.height;
+          const Vec on_film = camera.top_left + fx * camera.across + fy * camera.down;
+          sum += radiance(scene, {camera.eye, on_film - camera.eye}, settings, random);
+        }
       }
       const Rgb mean = sum / (n * n);
       picture.at(x, y) = {mean.x, mean.y, mean.z};

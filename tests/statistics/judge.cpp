@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <span>
 #include <utility>
 
@@ -94,11 +93,12 @@ void Judge::add(const std::string& what, const Region& region, std::size_t chann
 
 ::testing::AssertionResult Judge::verdict() const {
   std::vector<std::string> failures;
-  std::map<std::string, double> smallest_bias;  // the worst of each sort of region
+  std::vector<std::pair<std::string, double>> smallest_bias;  // the worst of each sort of region
   const Comparison* worst = nullptr;
   for (const Comparison& comparison : comparisons_) {
-    double& bias = smallest_bias[comparison.sort];
-    bias = std::max(bias, comparison.smallest_bias);
+    auto bias = std::ranges::find(smallest_bias, comparison.sort, &std::pair<std::string, double>::first);
+    if (bias == smallest_bias.end()) bias = smallest_bias.insert(bias, {comparison.sort, 0});
+    bias->second = std::max(bias->second, comparison.smallest_bias);
     if (!worst || std::abs(comparison.sigmas) > std::abs(worst->sigmas)) worst = &comparison;
     if (!comparison.agrees()) {
       failures.push_back(fmt::format("{}: off by {:.3g}, {:.1f} sigma where {:.1f} are allowed", comparison.name,
@@ -115,8 +115,10 @@ void Judge::add(const std::string& what, const Region& region, std::size_t chann
 
   std::string summary = fmt::format("{}: {} comparisons", family_, comparisons_.size());
   if (worst) summary += fmt::format(", largest deviation {:.1f} sigma ({})", worst->sigmas, worst->name);
+  const char* separator = "; smallest bias seen: ";
   for (const auto& [sort, bias] : smallest_bias) {
-    summary += fmt::format("; smallest bias seen, {}: {:.3f} %", sort, 100 * bias);
+    summary += fmt::format("{}{} {:.3f} %", separator, sort, 100 * bias);
+    separator = ", ";
   }
   fmt::print("{}\n", summary);
   if (failures.empty()) return ::testing::AssertionSuccess();

@@ -70,6 +70,7 @@ TEST(RegionMeans, AveragesTheRightPixels) {
 Estimate noisy_estimate(std::mt19937_64& random, int replicates, double relative_error, double bias) {
   std::gamma_distribution<double> average(100, 0.01);  // mean 1, standard deviation 0.1
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(replicates));
   for (int i = 0; i < replicates; ++i) {
     values.push_back((1 + bias) * (1 + 10 * relative_error * std::sqrt(replicates) * (average(random) - 1)));
   }

@@ -28,7 +28,7 @@ inline constexpr Family kSuite[] = {
     {"oracle.rectangle_over_plane", kPerPicture},
     {"oracle.uniform_room", 4 * 3 * (1 + 4)},
     {"oracle.shadow_rays_against_chance_hits", 3 * (1 + 4)},
-    {"oracle.room_reference", 8 * kPerRoom},
+    {"oracle.room_reference", 8 * 3 * (1 + 2 + 4)},
     {"plane.point", kPerPicture},
     {"plane.rectangle", kPerPicture},
     {"plane.triangle", kPerPicture},
