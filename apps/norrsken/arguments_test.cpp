@@ -1,0 +1,116 @@
+#include "arguments.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace norrsken::cli {
+namespace {
+
+using testing::HasSubstr;
+using testing::Pair;
+
+TEST(ParseDefinition, SplitsAtTheFirstEqualsSign) {
+  EXPECT_THAT(parse_definition("light=point"), Pair("light", "point"));
+  EXPECT_THAT(parse_definition("a=b=c"), Pair("a", "b=c"));
+  EXPECT_THAT(parse_definition("a="), Pair("a", ""));
+  EXPECT_THAT(parse_definition("a"), Pair("", ""));
+  EXPECT_THAT(parse_definition("=a"), Pair("", "a"));
+}
+
+TEST(ParseSize, TakesTwoPositiveWholeNumbersAndNothingElse) {
+  EXPECT_THAT(parse_size("800x600"), Pair(800, 600));
+  EXPECT_THAT(parse_size("1X2"), Pair(1, 2));
+  for (const char* wrong :
+       {"", "x", "800", "800x", "x600", "0x1", "1x0", "-1x1", "1x2x3", "1x2 ", "8e2x1", "99999999999x1"})
+    EXPECT_THAT(parse_size(wrong), Pair(0, 0)) << wrong;
+}
+
+TEST(WholeNumber, NamesWhatWasFoundAndWhatIsAccepted) {
+  const CLI::Validator check = whole_number(1, 100);
+  EXPECT_EQ(check(std::string("1")), "");
+  EXPECT_EQ(check(std::string("100")), "");
+  EXPECT_EQ(check(std::string("0")), "found '0', accepted is a whole number from 1 to 100");
+  for (const char* wrong : {"101", "-1", "", "1.5", "4k", "1e1", " 1", "99999999999999999999"})
+    EXPECT_NE(check(std::string(wrong)), "") << wrong;
+}
+
+TEST(SeedNumber, TakesAll64Bits) {
+  EXPECT_EQ(seed_number()(std::string("18446744073709551615")), "");
+  EXPECT_NE(seed_number()(std::string("18446744073709551616")), "");
+  EXPECT_NE(seed_number()(std::string("-1")), "");
+}
+
+TEST(RealNumber, IsFiniteAndWithinBounds) {
+  const CLI::Validator check = real_number(-64, 64);
+  for (const char* right : {"-1.5", "+2", "0", "1e1", ".5"}) EXPECT_EQ(check(std::string(right)), "") << right;
+  for (const char* wrong : {"nan", "inf", "65", "", "1,5", "two"}) EXPECT_NE(check(std::string(wrong)), "") << wrong;
+}
+
+TEST(OneOf, SuggestsTheNearestWord) {
+  const CLI::Validator check = one_of({"srgb", "filmic"});
+  EXPECT_EQ(check(std::string("filmic")), "");
+  EXPECT_EQ(check(std::string("filmc")), "unknown value 'filmc', did you mean 'filmic'? accepted: srgb, filmic");
+  EXPECT_EQ(check(std::string("aces")), "unknown value 'aces'; accepted: srgb, filmic");
+}
+
+/// A command line as `norrsken render` takes it.
+struct SceneLine {
+  CLI::App app;
+  SceneArguments scene;
+  MachineArguments machine;
+  ToneArguments tone;
+
+  void parse(const std::string& line) {
+    CLI::App* command = app.add_subcommand("render");
+    scene.add_to(*command);
+    machine.add_to(*command);
+    tone.add_to(*command);
+    app.parse(line);
+  }
+};
+
+TEST(SceneArguments, DefinitionsJoinedAndApartInOrder) {
+  SceneLine line;
+  line.parse("render -Da=1 room.xml -D b=2 -Da=3 --size 20x10 --sampler independent");
+  const LoadOptions options = line.scene.load_options();
+  EXPECT_EQ(line.scene.scene, "room.xml");
+  EXPECT_THAT(options.parameters, testing::ElementsAre(Pair("a", "1"), Pair("b", "2"), Pair("a", "3")));
+  EXPECT_EQ(options.width, 20);
+  EXPECT_EQ(options.height, 10);
+  EXPECT_EQ(options.sampler, "independent");
+  EXPECT_FALSE(options.integrator);
+}
+
+TEST(ToneArguments, NegativeExposureIsAValueNotAnOption) {
+  SceneLine line;
+  line.parse("render room.xml --exposure -1.5 --tone filmic --threads 3 --isa avx2");
+  EXPECT_EQ(line.tone.tone_mapping().exposure, -1.5f);
+  EXPECT_EQ(line.tone.tone_mapping().curve, ToneMapping::Curve::filmic);
+  RenderOptions options;
+  line.machine.apply_to(options);
+  EXPECT_EQ(options.threads, 3);
+  EXPECT_EQ(options.isa, "avx2");
+  EXPECT_EQ(options.accelerator, "auto");
+}
+
+std::string complaint(const std::string& text) {
+  SceneLine line;
+  try {
+    line.parse(text);
+  } catch (const CLI::ParseError& error) {
+    return describe_usage_error(line.app, error);
+  }
+  return "";
+}
+
+TEST(DescribeUsageError, NamesTheOptionAndASuggestion) {
+  EXPECT_EQ(complaint("render a.xml --thread 3"), "unknown option '--thread', did you mean '--threads'?");
+  EXPECT_EQ(complaint("render a.xml --zzz=3"), "unknown option '--zzz'");
+  EXPECT_EQ(complaint("render a.xml b.xml"), "unexpected argument 'b.xml'");
+  EXPECT_EQ(complaint("render a.xml --threads"), "option '--threads' needs a value");
+  EXPECT_THAT(complaint("render a.xml -Dfoo"), HasSubstr("found 'foo', accepted is NAME=VALUE"));
+  EXPECT_THAT(complaint("render"), HasSubstr("SCENE"));
+}
+
+}  // namespace
+}  // namespace norrsken::cli

@@ -1,0 +1,276 @@
+// The program as its users meet it: arguments in, exit status, messages and files out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "norrsken/image.h"
+#include "process_testing.h"
+
+namespace norrsken::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+/// A rendering of milliseconds; and one that nobody would wait for.
+const std::vector<std::string> kShort = {"-Dshadow_rays=1", "--size", "40x30", "--spp", "4"};
+const std::vector<std::string> kEndless = {"-Dshadow_rays=1", "--size", "400x400", "--spp", "1000000"};
+
+std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::vector<json> parse_lines(const std::string& text) {
+  std::vector<json> objects;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) objects.push_back(json::parse(line));
+  return objects;
+}
+
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("norrsken_cli_" + std::to_string(getpid()) + "_" +
+                                           testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  ProcessResult run(const std::vector<std::string>& arguments, ProcessOptions options = {}) const {
+    options.folder = folder_.string();
+    return run_program(arguments, options);
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  std::string read(const std::string& name) const {
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename().string());
+    return names;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Cli, HelpAndVersionGoToStdout) {
+  for (const char* command : {"render", "info", "scenes", "compare", "bench", "figures"}) {
+    const ProcessResult help = run({command, "--help"});
+    EXPECT_EQ(help.status, 0) << command;
+    EXPECT_THAT(help.out, AllOf(HasSubstr("Example"), HasSubstr(std::string("norrsken ") + command)));
+    EXPECT_THAT(help.err, IsEmpty());
+  }
+  const ProcessResult version = run({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_THAT(version.out, AllOf(StartsWith("norrsken "), HasSubstr("scalar")));
+}
+
+TEST_F(Cli, WrongCommandLinesAre64AndLeaveNothing) {
+  const auto expect_usage = [this](const std::vector<std::string>& arguments, const std::string& message) {
+    const ProcessResult result = run(arguments);
+    EXPECT_EQ(result.status, 64) << message;
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_THAT(result.out, IsEmpty());
+  };
+  expect_usage({}, "Usage: norrsken");
+  expect_usage({"rendr"}, "unknown command 'rendr', did you mean 'render'?");
+  expect_usage({"render"}, "SCENE is required");
+  expect_usage({"render", "hexagon_room", "--sppp", "3"}, "unknown option '--sppp', did you mean '--spp'?");
+  expect_usage({"render", "hexagon_room", "--spp", "0"}, "--spp: found '0', accepted is a whole number from 1 to");
+  expect_usage({"render", "hexagon_room", "--size", "800"}, "--size: found '800', accepted is WIDTHxHEIGHT");
+  expect_usage({"render", "hexagon_room", "-Dspp"}, "-D: found 'spp', accepted is NAME=VALUE");
+  expect_usage({"render", "hexagon_room", "-Dlite=point"}, "$lite");
+  expect_usage({"render", "hexagon_room", "--isa", "mmx"}, "accepted: auto");
+  expect_usage({"render", "hexagon_room", "--integrator", "pth"}, "did you mean 'path'?");
+  expect_usage({"render", "hexagon_room", "--quiet", "--json"}, "excludes");
+  EXPECT_THAT(files(), IsEmpty());
+}
+
+TEST_F(Cli, WrongScenesAre65AndMissingOnes66) {
+  write("bad.xml", "<scene version=\"3.0.0\"><bsdf type=\"difuse\"/></scene>\n");
+  const ProcessResult bad = run({"render", "bad.xml", "-o", "bad.png"});
+  EXPECT_EQ(bad.status, 65);
+  EXPECT_THAT(bad.err, AllOf(HasSubstr("bad.xml:1:"), HasSubstr("difuse")));
+  const ProcessResult missing = run({"render", "missing.xml"});
+  EXPECT_EQ(missing.status, 66);
+  EXPECT_THAT(missing.err, HasSubstr("missing.xml"));
+  EXPECT_EQ(run({"info", "."}).status, 66);
+  EXPECT_THAT(files(), testing::ElementsAre("bad.xml"));
+}
+
+TEST_F(Cli, OutputsAreCheckedBeforeRendering) {
+  for (const char* path : {"no/such/folder/a.png", "a.bmp"}) {
+    const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "-o", path} + kEndless);
+    EXPECT_EQ(result.status, 73);
+    EXPECT_THAT(result.err, HasSubstr(path));
+  }
+  EXPECT_THAT(files(), IsEmpty());
+}
+
+TEST_F(Cli, RendersEveryOutputAndTheDefaultOne) {
+  const ProcessResult result =
+      run(std::vector<std::string>{"render", "hexagon_room", "-o", "a.exr", "-o", "a.png", "--layers"} + kShort);
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, HasSubstr("wrote a.exr, a.png"));
+  Image image;
+  ASSERT_TRUE(read_image((folder_ / "a.exr").string(), image));
+  EXPECT_EQ(image.width, 40);
+  EXPECT_EQ(image.height, 30);
+  EXPECT_NE(image.find("variance.R"), nullptr);
+  EXPECT_EQ(run(std::vector<std::string>{"render", "hexagon_room"} + kShort).status, 0);
+  EXPECT_THAT(files(), testing::UnorderedElementsAre("a.exr", "a.png", "hexagon_room.exr"));
+}
+
+TEST_F(Cli, SeedAndThreadsDecideAsPromised) {
+  const auto render = [&](const std::string& file, const std::vector<std::string>& more) {
+    EXPECT_EQ(run(std::vector<std::string>{"render", "hexagon_room", "-o", file} + kShort + more).status, 0);
+    Image image;
+    EXPECT_TRUE(read_image((folder_ / file).string(), image));
+    return image.find("R")->values;
+  };
+  const auto one = render("one.exr", {"--threads", "1"});
+  EXPECT_EQ(one, render("two.exr", {"--threads", "2"}));
+  EXPECT_NE(one, render("seed.exr", {"--seed", "1"}));
+}
+
+TEST_F(Cli, QuietPrintsNothing) {
+  const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "--quiet"} + kShort);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST_F(Cli, JsonTellsStartProgressDone) {
+  const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "--json"} + kShort);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, IsEmpty());
+  const auto events = parse_lines(result.out);
+  ASSERT_GE(events.size(), 3u);
+  EXPECT_EQ(events.front()["event"], "start");
+  EXPECT_EQ(events.front()["width"], 40);
+  EXPECT_EQ(events[1]["event"], "progress");
+  EXPECT_EQ(events.back()["event"], "done");
+  EXPECT_EQ(events.back()["samples"], 40 * 30 * 4);
+  EXPECT_EQ(events.back()["interrupted"], false);
+  EXPECT_EQ(events.back()["files"], json::array({"hexagon_room.exr"}));
+  EXPECT_GT(events.back()["closest_rays"], 40 * 30 * 4 - 1);
+}
+
+TEST_F(Cli, InterruptSavesAndSays) {
+  for (const int signal_number : {SIGINT, SIGTERM}) {
+    const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "-o", "part.exr"} + kEndless,
+                                     {.signals = {signal_number}});
+    EXPECT_EQ(result.status, 77) << result.err;
+    EXPECT_THAT(result.err, AllOf(HasSubstr("wrote part.exr"), HasSubstr("of 1000000 samples per pixel")));
+    Image image;
+    ASSERT_TRUE(read_image((folder_ / "part.exr").string(), image));
+    double sum = 0;
+    for (const float value : image.find("R")->values) sum += value;
+    EXPECT_GT(sum, 0);
+    fs::remove(folder_ / "part.exr");
+  }
+  const auto events = parse_lines(
+      run(std::vector<std::string>{"render", "hexagon_room", "--json"} + kEndless, {.signals = {SIGINT}}).out);
+  EXPECT_EQ(events.back()["interrupted"], true);
+  EXPECT_EQ(events.back()["files"], json::array({"hexagon_room.exr"}));
+}
+
+TEST_F(Cli, TerminalGetsOneRewrittenLineWithinItsWidth) {
+  const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room"} + kEndless,
+                                   {.terminal = true, .signals = {SIGINT}, .signal_delay = std::chrono::seconds(1)});
+  EXPECT_EQ(result.status, 77);
+  std::istringstream stream(result.err);
+  int updates = 0;
+  for (std::string part; std::getline(stream, part, '\r');) {
+    const auto end = part.find("\x1b[K");
+    if (end == std::string::npos || end == 0) continue;
+    ++updates;
+    EXPECT_LT(end, 80u) << part;
+    EXPECT_THAT(part, HasSubstr(" %"));
+  }
+  EXPECT_GE(updates, 2);
+  // The line is removed before the summary follows.
+  EXPECT_THAT(result.err, HasSubstr("\r\x1b[K"));
+}
+
+TEST_F(Cli, ColorOnTerminalsOnlyAndNeverWithNoColor) {
+  const std::vector<std::string> wrong = {"render", "hexagon_room", "--spp", "0"};
+  const std::string red = "\x1b[1;31merror:";
+  EXPECT_THAT(run(wrong, {.terminal = true}).err, HasSubstr(red));
+  EXPECT_THAT(run(wrong, {.environment = {"NO_COLOR=1"}, .terminal = true}).err, Not(HasSubstr("\x1b[")));
+  EXPECT_THAT(run(wrong, {.environment = {"TERM=dumb"}, .terminal = true}).err, Not(HasSubstr("\x1b[")));
+  EXPECT_THAT(run(wrong).err, Not(HasSubstr("\x1b[")));
+}
+
+TEST_F(Cli, LostOutputIs74) {
+  const ProcessResult result = run({"scenes"}, {.stdout_file = "/dev/full"});
+  EXPECT_EQ(result.status, 74);
+  EXPECT_THAT(result.err, HasSubstr("standard output"));
+}
+
+TEST_F(Cli, InfoAndScenesTellTheRoom) {
+  EXPECT_THAT(run({"scenes"}).out, StartsWith("hexagon_room "));
+  EXPECT_EQ(parse_lines(run({"scenes", "--json"}).out).at(0)["name"], "hexagon_room");
+  const json info = parse_lines(run({"info", "hexagon_room", "-Dlight=point", "--json"}).out).at(0);
+  EXPECT_EQ(info["triangles"], 28);
+  EXPECT_EQ(info["spheres"], 1);
+  EXPECT_EQ(info["width"], 800);
+  EXPECT_EQ(info["parameters"]["light"], "point");
+  EXPECT_THAT(run({"info", "hexagon_room"}).out, AllOf(HasSubstr("30 triangles"), HasSubstr("mirror")));
+}
+
+TEST_F(Cli, CompareTellsDistancesAndWritesTheDifference) {
+  ASSERT_EQ(run(std::vector<std::string>{"render", "hexagon_room", "-o", "a.exr", "--layers"} + kShort).status, 0);
+  ASSERT_EQ(run(std::vector<std::string>{"render", "hexagon_room", "-o", "b.exr", "--seed", "7"} + kShort).status, 0);
+  const ProcessResult same = run({"compare", "a.exr", "a.exr", "--json"});
+  EXPECT_EQ(same.status, 0);
+  EXPECT_EQ(json::parse(same.out)["mse"], 0);
+  EXPECT_TRUE(json::parse(same.out)["psnr"].is_null());  // infinite
+  const json other = json::parse(run({"compare", "a.exr", "b.exr", "-o", "d.png", "--json"}).out);
+  EXPECT_GT(other["mse"], 0);
+  EXPECT_FALSE(other["z_test"].is_null());
+  EXPECT_TRUE(fs::exists(folder_ / "d.png"));
+  EXPECT_THAT(run({"compare", "b.exr", "b.exr"}).out, HasSubstr("z-test  none"));
+  EXPECT_EQ(run({"compare", "a.exr", "missing.exr"}).status, 66);
+  write("not.exr", "no image");
+  EXPECT_EQ(run({"compare", "a.exr", "not.exr"}).status, 65);
+}
+
+TEST_F(Cli, BenchPrintsOneLineOfJson) {
+  const ProcessResult result =
+      run(std::vector<std::string>{"bench", "hexagon_room", "--repeat", "2", "--isa", "scalar"} + kShort);
+  EXPECT_EQ(result.status, 0) << result.err;
+  const auto lines = parse_lines(result.out);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0]["isa"], "scalar");
+  EXPECT_EQ(lines[0]["lanes"], 1);
+  EXPECT_EQ(lines[0]["samples"], 40 * 30 * 4);
+  EXPECT_GT(lines[0]["mrays_per_second"]["median"], 0.0);
+  EXPECT_LE(lines[0]["msamples_per_second"]["min"], lines[0]["msamples_per_second"]["max"]);
+  EXPECT_THAT(files(), IsEmpty());
+}
+
+TEST_F(Cli, FiguresNeedsAFolderItCanMakeAndSavesNoPageWhenInterrupted) {
+  write("file", "");
+  EXPECT_EQ(run({"figures", "-o", "file/below"}).status, 73);
+  const ProcessResult result = run({"figures", "-o", "out", "--quick"}, {.signals = {SIGINT}});
+  EXPECT_EQ(result.status, 77) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("index.html was not written"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/index.html"));
+}
+
+}  // namespace
+}  // namespace norrsken::cli

@@ -1,0 +1,28 @@
+// Runs the program under test as its users do: as a process with its own files, signals and terminal.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace norrsken::cli {
+
+struct ProcessResult {
+  int status = -1;  ///< exit status; 128 + signal if one killed it
+  std::string out, err;
+};
+
+struct ProcessOptions {
+  std::string folder = {};                      ///< current folder of the process
+  std::vector<std::string> environment = {};    ///< "NAME=value", in addition
+  bool terminal = false;                        ///< stderr is a terminal of 80 columns (and then arrives in `err`)
+  std::string stdout_file = {};                 ///< where stdout goes in place of `out`
+  std::vector<int> signals = {};                ///< sent one after the other ...
+  std::chrono::milliseconds signal_delay{700};  ///< ... each after this time
+};
+
+/// Runs the program with these arguments to its end; kills it after two minutes.
+ProcessResult run_program(const std::vector<std::string>& arguments, const ProcessOptions& options = {});
+
+}  // namespace norrsken::cli

@@ -1,0 +1,56 @@
+#include "text_format.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace norrsken::cli {
+namespace {
+
+TEST(FormatDuration, ChangesUnitWhereRoundingDoes) {
+  EXPECT_EQ(format_duration(0), "0.00 s");
+  EXPECT_EQ(format_duration(0.00171), "1.7 ms");
+  EXPECT_EQ(format_duration(0.42), "0.42 s");
+  EXPECT_EQ(format_duration(9.994), "9.99 s");
+  EXPECT_EQ(format_duration(9.996), "10.0 s");
+  EXPECT_EQ(format_duration(59.94), "59.9 s");
+  EXPECT_EQ(format_duration(59.96), "1 min 00 s");
+  EXPECT_EQ(format_duration(247), "4 min 07 s");
+  EXPECT_EQ(format_duration(3599.6), "1 h 00 min");
+  EXPECT_EQ(format_duration(7 * 3600 + 200), "7 h 03 min");
+  EXPECT_EQ(format_duration(52 * 3600), "2 d 04 h");
+}
+
+TEST(FormatDuration, UnknownIsAQuestionMark) {
+  EXPECT_EQ(format_duration(-1), "?");
+  EXPECT_EQ(format_duration(std::numeric_limits<double>::infinity()), "?");
+  EXPECT_EQ(format_duration(std::numeric_limits<double>::quiet_NaN()), "?");
+}
+
+TEST(FormatCount, ThreeDigitsAndASuffix) {
+  EXPECT_EQ(format_count(0), "0");
+  EXPECT_EQ(format_count(999), "999");
+  EXPECT_EQ(format_count(999.6), "1.00 k");
+  EXPECT_EQ(format_count(12345), "12.3 k");
+  EXPECT_EQ(format_count(999999), "1.00 M");
+  EXPECT_EQ(format_count(4.31e10), "43.1 G");
+  EXPECT_EQ(format_count(5e18), "5000 P");
+}
+
+TEST(FormatPercent, SmallSharesKeepTheirDigits) {
+  EXPECT_EQ(format_percent(0.0123), "1.23 %");
+  EXPECT_EQ(format_percent(1.5), "150 %");
+  EXPECT_EQ(format_percent(0.00012), "0.012 %");
+  EXPECT_EQ(format_percent(0), "0.00 %");
+  EXPECT_EQ(format_percent(-1), "?");
+}
+
+TEST(FormatBytes, BinarySuffixes) {
+  EXPECT_EQ(format_bytes(1023), "1023 B");
+  EXPECT_EQ(format_bytes(1536), "1.5 KiB");
+  EXPECT_EQ(format_bytes(1024 * 1024 - 1), "1.0 MiB");
+  EXPECT_EQ(format_bytes(12ull << 30), "12 GiB");
+}
+
+}  // namespace
+}  // namespace norrsken::cli
