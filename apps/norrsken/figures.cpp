@@ -216,10 +216,10 @@ class Workshop {
 
   void tell(const FigureResult& result) const {
     if (arguments_.quiet) return;
-    print_note(fmt::format("{}: {} x {} samples, {} shadow ray{}; {}, {}rays, {:.1f} Msamples/s, error {}", result.name,
+    print_note(fmt::format("{}: {} x {} samples, {} shadow ray{}; {}, {}rays, {} Msamples/s, error {}", result.name,
                            result.spp, result.sampler, result.shadow_rays, result.shadow_rays == 1 ? "" : "s",
                            format_duration(result.statistics.seconds), format_count(static_cast<double>(result.rays())),
-                           result.samples_per_second() / 1e6, format_percent(result.relative_error())));
+                           format_digits(result.samples_per_second() / 1e6), format_percent(result.relative_error())));
   }
 
   const Arguments& arguments_;

@@ -63,9 +63,7 @@ std::string plural(int count, std::string_view noun) {
 
 std::string count_of_rays(const FigureResult& result) { return format_count(static_cast<double>(result.rays())); }
 
-std::string msamples_per_second(const FigureResult& result) {
-  return fmt::format("{:.1f}", result.samples_per_second() / 1e6);
-}
+std::string msamples_per_second(const FigureResult& result) { return format_digits(result.samples_per_second() / 1e6); }
 
 std::string row(std::string_view name, const std::string& value) {
   return fmt::format("<dt>{}</dt><dd>{}</dd>\n", escape_html(name), escape_html(value));
@@ -144,13 +142,15 @@ std::string equal_error_section(const FiguresReport& report) {
       "<h2>{0} and the same error with one shadow ray per hit</h2>\n"
       "<p class=\"result\">{0} takes {1} for {2} with {3} per hit, and its error is {4}. With one shadow ray "
       "per "
-      "hit, {5} per pixel come to {6} in <strong>{7}</strong>: {8:.3g} times as many samples, <strong>{9:.3g} times as "
+      "hit, {5} per pixel come to {6} in <strong>{7}</strong>: {8} samples, <strong>{9:.3g} times as "
       "fast</strong>. More shadow rays smooth the direct light only: the noise of indirect light and of "
       "what the sphere reflects needs more samples.</p>\n",
       escape_html(last.name), format_duration(last.statistics.seconds), plural(last.spp, "sample"),
       plural(last.shadow_rays, "shadow ray"), format_percent(last.relative_error()), plural(equal.spp, "sample"),
       format_percent(equal.relative_error()), format_duration(equal.statistics.seconds),
-      static_cast<double>(equal.spp) / last.spp, last.statistics.seconds / equal.statistics.seconds);
+      equal.spp == last.spp ? "as many"
+                            : fmt::format("{:.3g} times as many", static_cast<double>(equal.spp) / last.spp),
+      last.statistics.seconds / equal.statistics.seconds);
   html += "<div class=\"pair\">\n" + figure_card(last, report.width) + figure_card(equal, report.width) + "</div>\n";
   return html;
 }
@@ -201,7 +201,8 @@ std::string figures_page(const FiguresReport& report) {
       "</tbody></table></div>\n"
       "<p class=\"soft\">The error is the root of relMSE, and relMSE the mean of (a − b)² / (b² + 0.01) over pixels "
       "and channels of linear radiance, b being the reference. Relative RMSE is the root mean square of a − b over "
-      "the mean of b; the few pixels at the edge of a light weigh most in it. FLIP is the mean LDR-FLIP of the "
+      "the mean of b; a few very bright pixels, the edge of a light, weigh most in it. FLIP is the mean LDR-FLIP of "
+      "the "
       "tone-mapped images. Rays are all rays traced, to closest hits and to lights.</p>\n"
       "<h2>References</h2>\n<p>What the figures were compared with. The error that is left in a reference is its "
       "own estimate.</p>\n<div class=\"grid-of-figures\">\n";

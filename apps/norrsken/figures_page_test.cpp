@@ -113,6 +113,9 @@ TEST(FiguresPage, TellsTheRatiosOfEqualError) {
   const std::string html = figures_page(small_report());
   EXPECT_THAT(html, HasSubstr("2 times as many samples"));
   EXPECT_THAT(html, HasSubstr("70 times as fast"));
+  FiguresReport same = small_report();
+  same.one_ray[1].spp = 150;
+  EXPECT_THAT(figures_page(same), HasSubstr(": as many samples"));
   FiguresReport without = small_report();
   without.equal.reset();
   EXPECT_THAT(figures_page(without), Not(HasSubstr("times as fast")));

@@ -50,7 +50,7 @@ std::string progress_line(const std::string& label, const RenderProgress& progre
   if (const auto left = seconds_left(progress); left && *left > 0)
     parts[kTime] += fmt::format(", {} left", coarse_duration(*left));
   if (progress.samples_per_second > 0)
-    parts[kSpeed] = fmt::format("  {:.1f} Msamples/s", progress.samples_per_second / 1e6);
+    parts[kSpeed] = fmt::format("  {} Msamples/s", format_digits(progress.samples_per_second / 1e6));
   if (progress.relative_error >= 0) parts[kError] = "  error " + format_percent(progress.relative_error);
 
   const auto length = [&] {

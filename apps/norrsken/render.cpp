@@ -114,9 +114,9 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, int spp, const
     return;
   }
   if (arguments.quiet) return;
-  std::string text = fmt::format("{} samples in {}, {:.1f} Msamples/s, {:.1f} Mrays/s", format_count(samples),
-                                 format_duration(statistics.seconds), samples / statistics.seconds / 1e6,
-                                 rays / statistics.seconds / 1e6);
+  std::string text = fmt::format("{} samples in {}, {} Msamples/s, {} Mrays/s", format_count(samples),
+                                 format_duration(statistics.seconds), format_digits(samples / statistics.seconds / 1e6),
+                                 format_digits(rays / statistics.seconds / 1e6));
   if (statistics.relative_error >= 0)
     text += fmt::format(", estimated error {}", format_percent(statistics.relative_error));
   text += fmt::format(" ({}, {} lanes, {} thread{}, {})", statistics.isa, statistics.lanes, statistics.threads,

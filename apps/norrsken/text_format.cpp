@@ -6,21 +6,16 @@
 #include <cmath>
 
 namespace norrsken::cli {
-namespace {
-
-/// Three significant digits without an exponent, for values in [0, 1000): "0.42", "1.23", "12.3", "123".
-std::string three_digits(double value) {
+std::string format_digits(double value) {
   if (value < 9.995) return fmt::format("{:.2f}", value);
   if (value < 99.95) return fmt::format("{:.1f}", value);
   return fmt::format("{:.0f}", value);
 }
 
-}  // namespace
-
 std::string format_duration(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0) return "?";
   if (seconds > 0 && seconds < 0.0995) return fmt::format("{:.2g} ms", 1e3 * seconds);
-  if (seconds < 59.95) return three_digits(seconds) + " s";
+  if (seconds < 59.95) return format_digits(seconds) + " s";
   const double rounded = std::round(seconds);
   if (rounded < 3600) return fmt::format("{:.0f} min {:02.0f} s", std::floor(rounded / 60), std::fmod(rounded, 60.0));
   const double minutes = std::round(seconds / 60);
@@ -36,14 +31,14 @@ std::string format_count(double count) {
   std::size_t i = 0;
   count /= 1000;
   for (; count >= 999.5 && i + 1 < kSuffixes.size(); ++i) count /= 1000;
-  return fmt::format("{} {}", three_digits(count), kSuffixes[i]);
+  return fmt::format("{} {}", format_digits(count), kSuffixes[i]);
 }
 
 std::string format_percent(double share) {
   if (!std::isfinite(share) || share < 0) return "?";
   const double percent = 100 * share;
   if (percent > 0 && percent < 0.995) return fmt::format("{:.2g} %", percent);
-  return three_digits(percent) + " %";
+  return format_digits(percent) + " %";
 }
 
 std::string format_bytes(std::uint64_t bytes) {

@@ -6,6 +6,9 @@
 
 namespace norrsken::cli {
 
+/// A value of at least 0 with three significant digits and no exponent: "0.13", "1.23", "12.3", "1234".
+std::string format_digits(double value);
+
 /// "1.7 ms", "0.42 s", "12.3 s", "4 min 07 s", "7 h 03 min", "2 d 04 h". Negative and unknown (not finite) times are
 /// "?".
 std::string format_duration(double seconds);

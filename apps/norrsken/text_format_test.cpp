@@ -27,6 +27,12 @@ TEST(FormatDuration, UnknownIsAQuestionMark) {
   EXPECT_EQ(format_duration(std::numeric_limits<double>::quiet_NaN()), "?");
 }
 
+TEST(FormatDigits, NoExponent) {
+  EXPECT_EQ(format_digits(0.134), "0.13");
+  EXPECT_EQ(format_digits(9.996), "10.0");
+  EXPECT_EQ(format_digits(1234.4), "1234");
+}
+
 TEST(FormatCount, ThreeDigitsAndASuffix) {
   EXPECT_EQ(format_count(0), "0");
   EXPECT_EQ(format_count(999), "999");
