@@ -21,6 +21,7 @@ struct LoadOptions {
   std::optional<std::string> integrator = {};                        ///< plugin name in place of the file's
   std::optional<std::string> sampler = {};
   std::optional<int> width = {}, height = {};
+  std::optional<int> samples_per_pixel = {};  ///< in place of the scene's; a $spp parameter that `parameters` does not set follows
 };
 
 /// What `norrsken info` tells.
