@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "render/wave_arena.h"
@@ -16,6 +18,53 @@ std::uint32_t slots_per_wave(const IntegratorSettings& integrator) {
   const auto rays = static_cast<std::uint32_t>(integrator.emitter_samples);
   return std::clamp(kWaveSlots / std::max(rays / 64, 1u), 16 * kMaxLanes, kWaveSlots);
 }
+
+/// Threads that are waited for, whatever happens: leaving early tells them to stop and joins them.
+class Gathering {
+ public:
+  explicit Gathering(std::atomic<bool>& stop) : stop_(stop) {}
+  Gathering(const Gathering&) = delete;
+  Gathering& operator=(const Gathering&) = delete;
+  ~Gathering() {
+    stop_.store(true, std::memory_order_relaxed);
+    for (std::thread& thread : threads_) thread.join();
+    stop_.store(false, std::memory_order_relaxed);
+  }
+
+  /// False if the system gives no more threads; those that run do the work of all.
+  template <class Body>
+  bool start(Body body) {
+    const std::lock_guard lock(mutex_);
+    threads_.reserve(threads_.size() + 1);
+    try {
+      threads_.emplace_back([this, body] {
+        body();
+        const std::lock_guard done(mutex_);
+        --working_;
+        all_done_.notify_all();
+      });
+    } catch (const std::system_error&) {
+      return false;
+    }
+    ++working_;
+    return true;
+  }
+
+  int size() const { return static_cast<int>(threads_.size()); }
+
+  /// True when all are done, false when the time is over.
+  bool wait_for(milliseconds time) {
+    std::unique_lock lock(mutex_);
+    return all_done_.wait_for(lock, time, [&] { return working_ == 0; });
+  }
+
+ private:
+  std::atomic<bool>& stop_;
+  std::mutex mutex_;
+  std::condition_variable all_done_;
+  int working_ = 0;
+  std::vector<std::thread> threads_;
+};
 
 }  // namespace
 
@@ -39,8 +88,8 @@ Crew::Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, int t
 
 Crew::~Crew() = default;
 
-void Crew::run_features(std::uint32_t samples) {
-  run_pass(Pass::features, WorkPlan(film_.width(), film_.height(), samples, kWaveSlots), {});
+void Crew::run_features(std::uint32_t samples, const std::function<void()>& tick) {
+  run_pass(Pass::features, WorkPlan(film_.width(), film_.height(), samples, kWaveSlots), tick);
 }
 
 void Crew::run(std::uint64_t samples, const std::function<void()>& tick) {
@@ -56,49 +105,30 @@ void Crew::run_pass(Pass pass, const WorkPlan& plan, const std::function<void()>
     tiles_[i].region = {job.x0, job.y0, job.width, job.height};
   }
 
+  const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(threads_), plan.wave_count()));
+  // All memory before the first thread: what runs in the threads cannot fail.
+  std::vector<WaveArena> arenas(wanted);
   std::atomic<std::uint64_t> next_wave{0};
-  std::mutex done_mutex;
-  std::condition_variable done;
-  const auto threads = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(threads_), plan.wave_count()));
-  int working = threads;
-  std::vector<std::thread> workers;
-  workers.reserve(static_cast<std::size_t>(threads));
-  for (int i = 0; i < threads; ++i) {
-    workers.emplace_back([&] {
-      try {
-        work(pass, plan, next_wave);
-      } catch (...) {
-        const std::lock_guard lock(mutex_);
-        failure_ = std::current_exception();
-      }
-      const std::lock_guard lock(done_mutex);
-      --working;
-      done.notify_all();
-    });
+  Gathering gathering(stop_);
+  for (WaveArena& arena : arenas) {
+    if (!gathering.start([this, pass, &plan, &next_wave, &arena] { work(pass, plan, next_wave, arena.memory()); })) break;
   }
-  {
-    std::unique_lock lock(done_mutex);
-    while (!done.wait_for(lock, milliseconds(100), [&] { return working == 0; })) {
-      if (!tick) continue;
-      lock.unlock();
-      tick();
-      lock.lock();
-    }
+  threads_used_ = gathering.size();
+  if (threads_used_ == 0) throw std::runtime_error("the system starts no more threads");
+  while (!gathering.wait_for(milliseconds(100))) {
+    if (tick) tick();
   }
-  for (std::thread& worker : workers) worker.join();
-  if (failure_) std::rethrow_exception(failure_);
 }
 
-void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave) {
-  WaveArena arena;
+void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave, WaveMemory& memory) {
   WaveCounts counts;
-  while (!cancelled_.load(std::memory_order_relaxed)) {
+  while (!cancelled_.load(std::memory_order_relaxed) && !stop_.load(std::memory_order_relaxed)) {
     const std::uint64_t wave = next_wave.fetch_add(1, std::memory_order_relaxed);
     if (wave >= plan.wave_count()) break;
     const WaveJob job = plan.wave(wave);
     const auto trace = pass == Pass::radiance ? kernels_.trace_wave : kernels_.trace_features;
-    trace(scene_, job, arena.memory(), counts);
-    add_to_film(pass, plan, wave, arena.memory());
+    trace(scene_, job, memory, counts);
+    add_to_film(pass, plan, wave, memory);
   }
   const std::lock_guard lock(mutex_);
   counts_.closest_rays += counts.closest_rays;
@@ -150,6 +180,7 @@ RenderStatistics Crew::statistics() const {
   const std::lock_guard lock(mutex_);
   RenderStatistics s;
   s.samples = samples_done();
+  s.threads = threads_used_;
   s.closest_rays = counts_.closest_rays;
   s.shadow_rays = counts_.shadow_rays;
   s.dropped_samples = dropped_.count;

@@ -26,7 +26,7 @@ class Crew {
   ~Crew();
 
   /// Renders the feature layers with so many samples per pixel.
-  void run_features(std::uint32_t samples);
+  void run_features(std::uint32_t samples, const std::function<void()>& tick);
 
   /// Renders so many samples per pixel; calls `tick` from the calling thread about ten times a second.
   void run(std::uint64_t samples, const std::function<void()>& tick);
@@ -41,7 +41,7 @@ class Crew {
   enum class Pass { radiance, features };
 
   void run_pass(Pass pass, const WorkPlan& plan, const std::function<void()>& tick);
-  void work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave);
+  void work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave, WaveMemory& memory);
   void add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, WaveMemory& memory);
 
   const SceneView& scene_;
@@ -49,7 +49,9 @@ class Crew {
   Film& film_;
   FilmView film_view_;
   int threads_;
+  int threads_used_ = 0;
   const std::atomic<bool>& cancelled_;
+  std::atomic<bool> stop_{false};  ///< set while leaving `run` by an exception
 
   std::unique_ptr<Tile[]> tiles_;
   std::uint64_t tile_count_ = 0;
@@ -58,7 +60,6 @@ class Crew {
   mutable std::mutex mutex_;  // guards what follows
   WaveCounts counts_;
   DroppedSamples dropped_;
-  std::exception_ptr failure_;
 
   double last_error_ = -1;
   std::uint64_t last_error_samples_ = 0;

@@ -38,15 +38,11 @@ class RenderSession final : public Render {
   }
 
   RenderStatistics run(const std::function<void(const RenderProgress&)>& on_progress) override {
-    const auto begin = std::chrono::steady_clock::now();
+    auto begin = std::chrono::steady_clock::now();
     const auto seconds = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
     Crew crew(view_, kernels_, film_, threads_, cancelled_);
-    if (features_) {
-      feature_samples_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(samples_, kFeatureSamples));
-      crew.run_features(feature_samples_);
-    }
     const std::uint64_t total = samples_ * film_.width() * film_.height();
     const auto progress = [&] {
       RenderProgress p;
@@ -57,7 +53,13 @@ class RenderSession final : public Render {
       p.relative_error = crew.relative_error();
       on_progress(p);
     };
-    crew.run(samples_, on_progress ? std::function<void()>(progress) : std::function<void()>());
+    const auto tick = on_progress ? std::function<void()>(progress) : std::function<void()>();
+    if (features_) {
+      feature_samples_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(samples_, kFeatureSamples));
+      crew.run_features(feature_samples_, tick);
+      begin = std::chrono::steady_clock::now();  // figures are those of the image, not of its layers
+    }
+    crew.run(samples_, tick);
 
     RenderStatistics s = crew.statistics();
     s.seconds = seconds();
@@ -66,7 +68,6 @@ class RenderSession final : public Render {
     s.isa = kernels_.name;
     s.lanes = static_cast<int>(kernels_.lanes);
     s.accelerator = accel_name(view_.accel.kind);
-    s.threads = threads_;
     if (on_progress) {
       on_progress({s.samples, total, s.seconds, static_cast<double>(s.samples) / std::max(s.seconds, 1e-9), s.relative_error});
     }

@@ -5,7 +5,8 @@
 namespace norrsken {
 namespace {
 
-/// Without a depth limit, Russian roulette must come some time: paths in a closed white room would never end.
+/// Where the depth has no limit, or none that helps, Russian roulette must come some time: paths in a closed white room
+/// would not end.
 constexpr int kLatestRoulette = 4096;
 
 constexpr struct {
@@ -63,7 +64,9 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   view.film = tables.film;
   view.sampler = tables.sampler;
   view.integrator = tables.integrator;
-  if (view.integrator.max_depth < 0) view.integrator.rr_depth = std::min(view.integrator.rr_depth, kLatestRoulette);
+  if (view.integrator.max_depth < 0 || view.integrator.max_depth > kLatestRoulette) {
+    view.integrator.rr_depth = std::min(view.integrator.rr_depth, kLatestRoulette);
+  }
   view.accel = accel;
   return view;
 }
