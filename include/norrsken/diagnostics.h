@@ -1,6 +1,8 @@
 // What is wrong with a scene, a command line or a file, told to the person who made it.
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,20 +28,30 @@ struct Diagnostic {
   SourceLocation location;
 };
 
-/// Collects complaints, so that one run tells as many of them as it can. Never prints. Keeps the first hundred and
-/// counts the rest: a broken file must not fill the memory with its complaints.
+/// Collects complaints, so that one run tells as many of them as it can. Never prints. Keeps the first hundred errors
+/// and the first hundred warnings and counts the rest: a broken file must not fill the memory with its complaints. What
+/// is said again of the same place is kept and counted once.
 class Diagnostics {
  public:
   void error(SourceLocation location, std::string message, std::string accepted = {});
   void warning(SourceLocation location, std::string message, std::string accepted = {});
+
+  /// From now on, complaints about `file` end with "(named at room.xml:6:36)".
+  void named_at(const std::string& file, const SourceLocation& place);
+  /// Brings the complaints into the order of lines, file by file as they were first mentioned; those without a file
+  /// come last.
+  void sort();
 
   bool has_errors() const { return error_count_ > 0; }
   int error_count() const { return error_count_; }
   const std::vector<Diagnostic>& all() const { return all_; }
 
  private:
+  void add(Diagnostic diagnostic, int& count);
+
   std::vector<Diagnostic> all_;
-  int error_count_ = 0;
+  std::map<std::string, std::string> named_at_;  ///< "room.xml:6:36" by file
+  int error_count_ = 0, warning_count_ = 0;
 };
 
 /// The form in which a person reads a diagnostic, without a trailing line break:

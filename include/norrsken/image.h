@@ -52,8 +52,11 @@ IoStatus write_image(const std::string& path, const Image& image, const ToneMapp
 /// Errors: not a regular file, unknown or damaged format, more than 2^30 values. `image` changes on success only.
 IoStatus read_image(const std::string& path, Image& image);
 
-/// Whether `write_image` knows the extension, asked before a long render: empty, or what is wrong and accepted.
-/// Also checks that the folder exists and can be written to.
+/// Whether `write_image` knows the extension: empty, or what is wrong and accepted.
+IoStatus check_image_name(const std::string& path);
+
+/// Whether `write_image` could write there, asked before a long render: `check_image_name`, and that the folder exists
+/// and can be written to.
 IoStatus check_writable(const std::string& path);
 
 }  // namespace norrsken

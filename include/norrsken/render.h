@@ -13,13 +13,16 @@
 
 namespace norrsken {
 
+/// Most worker threads that a rendering takes.
+inline constexpr int kMaxThreads = 1024;
+
 struct RenderOptions {
   std::optional<int> samples_per_pixel = {};  ///< in place of the scene's
   std::uint64_t seed = 0;
-  int threads = 0;                       ///< 0: one per hardware thread
-  std::string isa = "auto";              ///< auto, scalar, sse4.2, avx2, avx512
-  std::string accelerator = "auto";      ///< auto, planes, moller_trumbore, embree
-  bool features = false;                 ///< also render depth, normal, albedo and object id of the first hits
+  int threads = 0;                   ///< 0: one per hardware thread
+  std::string isa = "auto";          ///< auto, scalar, sse4.2, avx2, avx512
+  std::string accelerator = "auto";  ///< auto, planes, moller_trumbore, embree
+  bool features = false;             ///< also render depth, normal, albedo and object id of the first hits
 };
 
 struct RenderProgress {
@@ -36,9 +39,9 @@ struct DroppedSample {
 };
 
 struct RenderStatistics {
-  std::uint64_t samples = 0;        ///< camera samples taken
-  std::uint64_t closest_rays = 0;   ///< rays asked for their closest hit
-  std::uint64_t shadow_rays = 0;    ///< rays asked whether anything is in between
+  std::uint64_t samples = 0;       ///< camera samples taken
+  std::uint64_t closest_rays = 0;  ///< rays asked for their closest hit
+  std::uint64_t shadow_rays = 0;   ///< rays asked whether anything is in between
   std::uint64_t dropped_samples = 0;
   std::vector<DroppedSample> dropped;  ///< the first few of them
   double seconds = 0;
@@ -60,8 +63,9 @@ class Render {
   virtual RenderStatistics run(const std::function<void(const RenderProgress&)>& on_progress = {}) = 0;
   virtual void cancel() noexcept = 0;
 
-  /// What has been rendered so far: R, G, B; `layers` adds `samples`, `variance.R/G/B` (of the mean), `error.R/G/B`
-  /// (its root; both NaN while a pixel has too few samples to tell) and, with RenderOptions::features, `depth.Z`, `normal.X/Y/Z`, `albedo.R/G/B`, `id`.
+  /// What has been rendered, asked after `run`: R, G, B; `layers` adds `samples`, `variance.R/G/B` (of the mean),
+  /// `error.R/G/B` (its root; both NaN while a pixel has too few samples to tell) and, with RenderOptions::features,
+  /// `depth.Z`, `normal.X/Y/Z`, `albedo.R/G/B`, `id`.
   virtual Image image(bool layers = false) const = 0;
 };
 

@@ -18,10 +18,11 @@ struct LoadedScene;  // the scene as tables; private to the library
 /// What the command line may say over the scene file's head.
 struct LoadOptions {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< -Dname=value, in order, later ones win
-  std::optional<std::string> integrator = {};                        ///< plugin name in place of the file's
+  std::optional<std::string> integrator = {};                   ///< plugin name in place of the file's
   std::optional<std::string> sampler = {};
   std::optional<int> width = {}, height = {};
-  std::optional<int> samples_per_pixel = {};  ///< in place of the scene's; a $spp parameter that `parameters` does not set follows
+  /// In place of the scene's; a $spp parameter that `parameters` does not set follows.
+  std::optional<int> samples_per_pixel = {};
 };
 
 /// What `norrsken info` tells.
@@ -49,7 +50,7 @@ struct BuiltinScene {
 class Scene {
  public:
   /// Loads a Mitsuba 3 XML file, or a built-in scene by name. Complaints go to `diagnostics`; the result is empty
-  /// if there was an error.
+  /// if there was an error. They are sorted (see Diagnostics::sort).
   static std::optional<Scene> load(const std::string& path_or_name, const LoadOptions& options,
                                    Diagnostics& diagnostics);
 

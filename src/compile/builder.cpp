@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "compile/plugins.h"
 #include "light/light_choice.h"
+#include "sampler/sampler_host.h"
 
 namespace norrsken {
 namespace {
@@ -157,6 +158,16 @@ FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options) {
   return settings;
 }
 
+void Builder::override_samples_per_pixel(const LoadOptions& options) {
+  if (!options.samples_per_pixel) return;
+  if (*options.samples_per_pixel < 1) {
+    diagnostics_.error({}, fmt::format("{} samples per pixel", *options.samples_per_pixel),
+                       fmt::format("an integer from 1 to {}", kMaxSampleCount));
+    return;
+  }
+  tables().sampler.samples_per_pixel = *options.samples_per_pixel;
+}
+
 void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
   const auto sensors = scene.children("sensor");
   if (sensors.empty()) {
@@ -173,6 +184,7 @@ void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
   tables().film = film(p, options);
   tables().sampler =
       compile_chosen(p.child("sampler"), "sampler", "sobol", options.sampler, sampler_plugins(), scene_.info.sampler);
+  override_samples_per_pixel(options);
   tables().camera = plugin->compile(p, *this, tables().film);
   p.finish();
 }

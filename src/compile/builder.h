@@ -71,6 +71,7 @@ class Builder {
   /// Complains about media, textures and volumes by name; for nodes whose children's names mean nothing yet.
   void refuse_kinds_to_come(Parameters& parameters);
   void compile_sensor(Parameters& scene, const LoadOptions& options);
+  void override_samples_per_pixel(const LoadOptions& options);
   FilmSettings film(Parameters& sensor, const LoadOptions& options);
   void compile_shape(const Node& node);
   void compile_emitter(const Node& node, std::uint32_t shape);

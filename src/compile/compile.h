@@ -17,8 +17,8 @@ struct LoadedScene {
   SceneInfo info;  ///< all but `accelerator`, which is chosen when rendering
 };
 
-/// Compiles a description. Overrides in `options` (integrator, sampler, size) win over the scene's own nodes; their
-/// complaints have no location. Empty if `diagnostics` holds any error, one of the reader's included.
+/// Compiles a description. Overrides in `options` (integrator, sampler, size, samples) win over the scene's own nodes;
+/// their complaints have no location. Empty if `diagnostics` holds any error, one of the reader's included.
 std::optional<LoadedScene> compile(const Description& description, const FileSystem& files, const LoadOptions& options,
                                    Diagnostics& diagnostics);
 

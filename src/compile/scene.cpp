@@ -24,14 +24,16 @@ std::string description_of(std::string_view xml) {
   return std::string(trim(comment.substr(0, comment.find('\n'))));
 }
 
-/// The path that `path_or_name` stands for; empty after a complaint. A file on disk hides a built-in scene.
+/// The path that `path_or_name` stands for; empty after a complaint. A file on disk hides a built-in scene,
+/// a folder does not.
 std::string find_scene(const std::string& path_or_name, const FileSystem& files, Diagnostics& diagnostics) {
-  if (files.exists(path_or_name)) return path_or_name;
+  if (files.exists(path_or_name) && !files.is_folder(path_or_name)) return path_or_name;
   std::vector<std::string> names;
   for (const BuiltinScene& scene : builtin_scenes()) {
     if (scene.name == path_or_name) return fmt::format("builtin:{}{}", scene.name, kSceneSuffix);
     names.push_back(scene.name);
   }
+  if (files.exists(path_or_name)) return path_or_name;  // to be told that it is a folder
   diagnostics.error({},
                     fmt::format("there is no scene file or built-in scene {}{}", quoted(path_or_name, 200),
                                 did_you_mean(path_or_name, names)),
@@ -39,16 +41,39 @@ std::string find_scene(const std::string& path_or_name, const FileSystem& files,
   return {};
 }
 
+using SceneArguments = std::vector<std::pair<std::string, std::string>>;
+
+/// The parameters to read the scene with. A `$spp` that nobody set follows the samples per pixel, so that what the
+/// scene derives from it (such as emitter samples) does too. Whether there is one is known only when the scene has been
+/// read.
+SceneArguments scene_arguments(const std::string& path, const FileSystem& files, const LoadOptions& options) {
+  SceneArguments arguments = options.parameters;
+  const auto is_spp = [](const auto& parameter) { return parameter.first == "spp"; };
+  if (options.samples_per_pixel.value_or(0) < 1 || std::ranges::any_of(arguments, is_spp)) return arguments;
+  Diagnostics unheard;  // the reading that counts says it all again
+  const auto description = read_mitsuba_xml(path, files, arguments, unheard);
+  if (description && std::ranges::any_of(description->parameters, is_spp)) {
+    arguments.emplace_back("spp", std::to_string(*options.samples_per_pixel));
+  }
+  return arguments;
+}
+
+std::optional<LoadedScene> load_tables(const std::string& path_or_name, const LoadOptions& options,
+                                       Diagnostics& diagnostics) {
+  const FileSystem files;
+  const std::string path = find_scene(path_or_name, files, diagnostics);
+  if (path.empty()) return std::nullopt;
+  const auto description = read_mitsuba_xml(path, files, scene_arguments(path, files, options), diagnostics);
+  if (!description) return std::nullopt;
+  return compile(*description, files, options, diagnostics);
+}
+
 }  // namespace
 
 std::optional<Scene> Scene::load(const std::string& path_or_name, const LoadOptions& options,
                                  Diagnostics& diagnostics) {
-  const FileSystem files;
-  const std::string path = find_scene(path_or_name, files, diagnostics);
-  if (path.empty()) return std::nullopt;
-  const auto description = read_mitsuba_xml(path, files, options.parameters, diagnostics);
-  if (!description) return std::nullopt;
-  auto loaded = compile(*description, files, options, diagnostics);
+  auto loaded = load_tables(path_or_name, options, diagnostics);
+  diagnostics.sort();
   if (!loaded) return std::nullopt;
   return Scene(std::make_shared<const LoadedScene>(std::move(*loaded)));
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 #include "compile/compile.h"
@@ -227,6 +228,105 @@ TEST(SceneLoad, ReadsAFileFromDisk) {
   ASSERT_TRUE(scene);
   EXPECT_THAT(diagnostics.all(), IsEmpty());
   EXPECT_EQ(scene->info().spheres, 1u);
+}
+
+TEST(HexagonRoom, TakesItsSamplesPerPixelFromTheOptions) {
+  LoadOptions options;
+  options.samples_per_pixel = 5;
+  const SceneInfo followed = load_room(options).info();
+  EXPECT_EQ(followed.samples_per_pixel, 5);
+  EXPECT_EQ(followed.emitter_samples, 5);
+
+  options.parameters = {{"shadow_rays", "1"}};
+  EXPECT_EQ(load_room(options).info().samples_per_pixel, 5);
+  EXPECT_EQ(load_room(options).info().emitter_samples, 1);
+
+  options.parameters = {{"spp", "7"}};
+  EXPECT_EQ(load_room(options).info().samples_per_pixel, 5);
+  EXPECT_EQ(load_room(options).info().emitter_samples, 7);
+}
+
+std::string load_messages(const std::string& path_or_name, const LoadOptions& options) {
+  Diagnostics diagnostics;
+  Scene::load(path_or_name, options, diagnostics);
+  std::string text;
+  for (const Diagnostic& d : diagnostics.all()) text += to_text(d) + "\n";
+  return text;
+}
+
+TEST(SceneLoad, RefusesToTakeNoSamples) {
+  for (const int count : {0, -3}) {
+    LoadOptions options;
+    options.samples_per_pixel = count;
+    EXPECT_EQ(load_messages("hexagon_room", options),
+              "error: " + std::to_string(count) + " samples per pixel\naccepted: an integer from 1 to 2147483647\n");
+  }
+}
+
+/// A scene on disk for as long as the object lives.
+class SceneOnDisk {
+ public:
+  explicit SceneOnDisk(const std::string& elements) : path_(::testing::TempDir() + "norrsken_scene_on_disk.xml") {
+    std::ofstream(path_) << "<scene version=\"3.0.0\">\n" << elements << "\n</scene>\n";
+  }
+  ~SceneOnDisk() { std::remove(path_.c_str()); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+TEST(SceneLoad, SamplesPerPixelDoNotNeedAParameterThatIsUsed) {
+  const std::string rest = R"(<sensor type="perspective"><film type="hdrfilm"><rfilter type="box"/></film></sensor>
+    <shape type="sphere"/><emitter type="point"/>)";
+  LoadOptions options;
+  options.samples_per_pixel = 9;
+  for (const std::string unused : {"", R"(<default name="spp" value="3"/>)"}) {
+    const SceneOnDisk file(unused + rest);
+    Diagnostics diagnostics;
+    const auto scene = Scene::load(file.path(), options, diagnostics);
+    EXPECT_THAT(diagnostics.all(), IsEmpty());
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->info().samples_per_pixel, 9);
+  }
+}
+
+TEST(SceneLoad, TellsWhatIsWrongInTheOrderOfTheFile) {
+  const SceneOnDisk file(R"(<shape type="sphere"><float name="radius" value="-1"/></shape>
+<emitter type="pont"/>
+<integrator type="pth"/>
+<sensor type="perspective"><film type="hdrfilm"><rfilter type="box"/></film></sensor>)");
+  Diagnostics diagnostics;
+  LoadOptions options;
+  options.samples_per_pixel = 0;
+  EXPECT_FALSE(Scene::load(file.path(), options, diagnostics));
+  std::vector<int> lines;
+  for (const Diagnostic& d : diagnostics.all()) lines.push_back(d.location.line);
+  EXPECT_THAT(lines, ElementsAre(2, 3, 4, 0));
+}
+
+TEST(SceneLoad, AFolderDoesNotHideABuiltInSceneButAFileDoes) {
+  namespace fs = std::filesystem;
+  const fs::path before = fs::current_path();
+  const fs::path folder = fs::path(::testing::TempDir()) / "norrsken_scene_names";
+  fs::create_directories(folder / "hexagon_room");
+  fs::create_directories(folder / "other");
+  fs::current_path(folder);
+  EXPECT_EQ(load_messages("hexagon_room", {}), "");
+  EXPECT_EQ(load_messages("other", {}), "error: cannot read the scene 'other': is a folder\naccepted: an XML file\n");
+  fs::remove_all("hexagon_room");
+  std::ofstream("hexagon_room") << "not XML";
+  EXPECT_THAT(load_messages("hexagon_room", {}), HasSubstr("error"));
+  fs::current_path(before);
+  fs::remove_all(folder);
+}
+
+TEST(SceneLoad, AnEmptyPluginNameIsNotNoName) {
+  LoadOptions options;
+  options.integrator = options.sampler = "";
+  EXPECT_EQ(load_messages("hexagon_room", options),
+            "error: unknown integrator ''\naccepted: direct, path, whitted\n"
+            "error: unknown sampler ''\naccepted: independent, sobol\n");
 }
 
 TEST(SceneLoad, RefusesFolders) {

@@ -107,7 +107,9 @@ void SceneParameters::finish() const {
 
 std::vector<std::pair<std::string, std::string>> SceneParameters::values() const {
   std::vector<std::pair<std::string, std::string>> result;
-  for (const std::size_t index : order_) result.emplace_back(entries_[index].name, entries_[index].value);
+  for (const std::size_t index : order_) {
+    if (entries_[index].used) result.emplace_back(entries_[index].name, entries_[index].value);
+  }
   return result;
 }
 

@@ -28,7 +28,7 @@ class SceneParameters {
   /// Complains about overrides that were never used.
   void finish() const;
 
-  /// Names and values, in order of definition; an override without a default counts from its first use.
+  /// Names and values of those in use, in order of definition; an override without a default counts from its first use.
   std::vector<std::pair<std::string, std::string>> values() const;
 
   static bool is_name(std::string_view text);

@@ -14,11 +14,11 @@ inline constexpr std::uint32_t kTime = 4;  // 1
 
 /// Per surface hit; hit 1 is the camera ray's.
 namespace hit_dimension {
-inline constexpr std::uint32_t kLight = 0;          // 1: which light
-inline constexpr std::uint32_t kLightPosition = 1;  // 2: where on it
-inline constexpr std::uint32_t kBsdfLobe = 3;       // 1: which part of the BSDF
-inline constexpr std::uint32_t kBsdfDirection = 4;  // 2
-inline constexpr std::uint32_t kRoulette = 6;       // 1
+inline constexpr std::uint32_t kLight = 0;          // 2: which light
+inline constexpr std::uint32_t kLightPosition = 2;  // 2: where on it
+inline constexpr std::uint32_t kBsdfLobe = 4;       // 1: which part of the BSDF
+inline constexpr std::uint32_t kBsdfDirection = 5;  // 2
+inline constexpr std::uint32_t kRoulette = 7;       // 1
 inline constexpr std::uint32_t kCount = 8;
 }  // namespace hit_dimension
 

@@ -7,7 +7,7 @@ namespace norrsken {
 SamplerSettings read_sampler(Parameters& p, SamplerKind kind) {
   SamplerSettings settings;
   settings.kind = kind;
-  settings.samples_per_pixel = p.integer("sample_count", 4, 1, std::numeric_limits<std::int32_t>::max());
+  settings.samples_per_pixel = p.integer("sample_count", 4, 1, kMaxSampleCount);
   settings.seed = static_cast<std::uint64_t>(p.integer("seed", 0, 0, std::numeric_limits<std::int64_t>::max()));
   return settings;
 }

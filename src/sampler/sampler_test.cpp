@@ -28,7 +28,8 @@ TEST(Sobol, EveryReplicateIsANet) {
           const int columns = 1 << (m - rows_log), rows = 1 << rows_log;
           std::set<int> cells;
           for (int i = 0; i < n; ++i) {
-            const Vec2f u = sample(SamplerKind::sobol, 5, static_cast<std::uint32_t>(i) * kReplicates + replicate, dimension);
+            const Vec2f u =
+                sample(SamplerKind::sobol, 5, static_cast<std::uint32_t>(i) * kReplicates + replicate, dimension);
             cells.insert(static_cast<int>(u.x.v * static_cast<float>(columns)) * rows +
                          static_cast<int>(u.y.v * static_cast<float>(rows)));
           }

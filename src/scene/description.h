@@ -64,7 +64,7 @@ struct Description {
   std::shared_ptr<const Node> scene;
   /// Folders in which file names are looked up: beside the naming file is tried first (see `resolve_file`), then these.
   std::vector<std::string> search_paths;
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< `$name` and its final value, in order of definition
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< those in use: `$name` and its final value
 };
 
 }  // namespace norrsken

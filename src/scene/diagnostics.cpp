@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "base/text.h"
@@ -10,7 +14,7 @@
 namespace norrsken {
 namespace {
 
-constexpr std::size_t kMaxKept = 100;
+constexpr int kMaxKept = 100;  // errors, and as many warnings
 constexpr int kTabStop = 4;
 constexpr int kMaxWidth = 100;  // columns of an excerpt
 constexpr std::string_view kEllipsis = "...";
@@ -96,32 +100,78 @@ std::pair<std::string, std::string> excerpt_and_mark(const SourceLocation& locat
   return {text, carets};
 }
 
+// "room.xml:6:36", as far as it is known.
+std::string place_text(const SourceLocation& location) {
+  std::string text = printable(location.file);
+  if (location.line > 0) text += fmt::format(":{}", location.line);
+  if (location.line > 0 && location.column > 0) text += fmt::format(":{}", location.column);
+  return text;
+}
+
+bool says_the_same(const Diagnostic& a, const Diagnostic& b) {
+  const SourceLocation &x = a.location, &y = b.location;
+  return a.severity == b.severity && x.line == y.line && x.column == y.column && x.file == y.file &&
+         a.message == b.message;
+}
+
 }  // namespace
 
 void Diagnostics::error(SourceLocation location, std::string message, std::string accepted) {
-  ++error_count_;
-  if (all_.size() < kMaxKept) {
-    all_.push_back({Diagnostic::Severity::error, std::move(message), std::move(accepted), std::move(location)});
-  } else if (all_.size() == kMaxKept) {
-    all_.push_back(
-        {Diagnostic::Severity::error, fmt::format("more than {} complaints, the rest are left out", kMaxKept), {}, {}});
-  }
+  add({Diagnostic::Severity::error, std::move(message), std::move(accepted), std::move(location)}, error_count_);
 }
 
 void Diagnostics::warning(SourceLocation location, std::string message, std::string accepted) {
-  if (all_.size() >= kMaxKept) return;
-  all_.push_back({Diagnostic::Severity::warning, std::move(message), std::move(accepted), std::move(location)});
+  add({Diagnostic::Severity::warning, std::move(message), std::move(accepted), std::move(location)}, warning_count_);
+}
+
+void Diagnostics::add(Diagnostic diagnostic, int& count) {
+  if (count <= kMaxKept) {
+    if (const auto place = named_at_.find(diagnostic.location.file); place != named_at_.end())
+      diagnostic.message += fmt::format(" (named at {})", place->second);
+    const auto is_same = [&diagnostic](const Diagnostic& known) { return says_the_same(known, diagnostic); };
+    if (std::any_of(all_.begin(), all_.end(), is_same)) return;
+  }
+  if (count < kMaxKept) {
+    all_.push_back(std::move(diagnostic));
+  } else if (count == kMaxKept) {
+    const bool is_error = diagnostic.severity == Diagnostic::Severity::error;
+    all_.push_back({diagnostic.severity,
+                    fmt::format("more than {} {}, the rest are left out", kMaxKept, is_error ? "errors" : "warnings"),
+                    {},
+                    {}});
+  }
+  if (count < std::numeric_limits<int>::max()) ++count;
+}
+
+void Diagnostics::named_at(const std::string& file, const SourceLocation& place) {
+  if (!place.file.empty() && place.file != file) named_at_[file] = place_text(place);
+}
+
+void Diagnostics::sort() {
+  std::unordered_map<std::string_view, std::size_t> order;  // of the files
+  for (const Diagnostic& diagnostic : all_) {
+    if (!diagnostic.location.file.empty()) order.try_emplace(diagnostic.location.file, order.size());
+  }
+  const auto key = [&order](const Diagnostic& diagnostic) {
+    const SourceLocation& location = diagnostic.location;
+    const std::size_t file = location.file.empty() ? order.size() : order.at(location.file);
+    return std::tuple(file, location.line, location.column);
+  };
+  // Sorted as numbers: moving the diagnostics would pull the names from under the table.
+  std::vector<std::size_t> places(all_.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::stable_sort(places.begin(), places.end(),
+                   [&](std::size_t a, std::size_t b) { return key(all_[a]) < key(all_[b]); });
+  std::vector<Diagnostic> sorted;
+  sorted.reserve(all_.size());
+  for (const std::size_t place : places) sorted.push_back(std::move(all_[place]));
+  all_ = std::move(sorted);
 }
 
 std::string to_text(const Diagnostic& diagnostic) {
   const SourceLocation& location = diagnostic.location;
   std::string text;
-  if (!location.file.empty()) {
-    text = printable(location.file) + ":";
-    if (location.line > 0) text += fmt::format("{}:", location.line);
-    if (location.line > 0 && location.column > 0) text += fmt::format("{}:", location.column);
-    text += ' ';
-  }
+  if (!location.file.empty()) text = place_text(location) + ": ";
   text += diagnostic.severity == Diagnostic::Severity::error ? "error: " : "warning: ";
   text += printable(diagnostic.message);
   if (location.line > 0 && !location.excerpt.empty()) {

@@ -9,6 +9,14 @@ SourceLocation at(int line, int column, int length, std::string excerpt, int exc
   return {"room.xml", line, column, length, std::move(excerpt), excerpt_column};
 }
 
+SourceLocation in(std::string file, int line = 0, int column = 0) {
+  SourceLocation location;
+  location.file = std::move(file);
+  location.line = line;
+  location.column = column;
+  return location;
+}
+
 std::string text_of(SourceLocation location, std::string message = "bad", std::string accepted = {}) {
   return to_text({Diagnostic::Severity::error, std::move(message), std::move(accepted), std::move(location)});
 }
@@ -96,13 +104,57 @@ TEST(Diagnostics, CountsErrorsNotWarnings) {
   EXPECT_EQ(diagnostics.all()[1].accepted, "good");
 }
 
-TEST(Diagnostics, KeepsAHundredAndCountsTheRest) {
+TEST(Diagnostics, KeepsAHundredErrorsAndAHundredWarningsAndCountsTheRest) {
   Diagnostics diagnostics;
-  for (int i = 0; i < 1000; ++i) diagnostics.error({}, "bad");
-  for (int i = 0; i < 1000; ++i) diagnostics.warning({}, "odd");
-  EXPECT_EQ(diagnostics.error_count(), 1000);
+  for (int i = 0; i < 1000; ++i) diagnostics.warning(at(i + 1, 1, 1, ""), "odd");
   ASSERT_EQ(diagnostics.all().size(), 101u);
-  EXPECT_EQ(to_text(diagnostics.all().back()), "error: more than 100 complaints, the rest are left out");
+  EXPECT_EQ(to_text(diagnostics.all().back()), "warning: more than 100 warnings, the rest are left out");
+  EXPECT_FALSE(diagnostics.has_errors());
+  for (int i = 0; i < 1000; ++i) diagnostics.error(at(i + 1, 1, 1, ""), "bad");
+  EXPECT_EQ(diagnostics.error_count(), 1000);
+  ASSERT_EQ(diagnostics.all().size(), 202u);
+  EXPECT_EQ(to_text(diagnostics.all()[101]), "room.xml:1:1: error: bad");
+  EXPECT_EQ(to_text(diagnostics.all().back()), "error: more than 100 errors, the rest are left out");
+}
+
+TEST(Diagnostics, WhatIsSaidAgainIsKeptOnce) {
+  Diagnostics diagnostics;
+  for (int i = 0; i < 200; ++i) diagnostics.error(at(1, 2, 1, ""), "bad");
+  diagnostics.warning(at(1, 2, 1, ""), "bad");
+  diagnostics.error(at(1, 2, 1, ""), "worse");
+  diagnostics.error(at(1, 3, 1, ""), "bad");
+  diagnostics.error(at(2, 2, 1, ""), "bad");
+  diagnostics.error(in("other.xml", 1, 2), "bad");
+  EXPECT_EQ(diagnostics.error_count(), 5);
+  EXPECT_EQ(diagnostics.all().size(), 6u);
+}
+
+TEST(Diagnostics, SortsByFileAndLine) {
+  Diagnostics diagnostics;
+  diagnostics.error({}, "nowhere");
+  diagnostics.error(in("z.xml", 7, 1), "z7");
+  diagnostics.error(in("a.xml", 1, 1), "a1");
+  diagnostics.error(in("z.xml", 5, 9), "z5.9");
+  diagnostics.warning(in("z.xml", 5, 2), "z5.2");
+  diagnostics.error(in("z.xml", 5, 9), "z5.9 again");
+  diagnostics.error(in("z.xml"), "z");
+  diagnostics.sort();
+  std::string order;
+  for (const Diagnostic& diagnostic : diagnostics.all()) order += diagnostic.message + ", ";
+  EXPECT_EQ(order, "z, z5.2, z5.9, z5.9 again, z7, a1, nowhere, ");
+}
+
+TEST(Diagnostics, TellsWhereAFileWasNamed) {
+  Diagnostics diagnostics;
+  diagnostics.named_at("mesh.obj", at(6, 36, 8, ""));
+  diagnostics.error(in("mesh.obj"), "no faces", "a face");
+  diagnostics.error(in("room.xml"), "bad");
+  diagnostics.named_at("mesh.obj", at(9, 36, 8, ""));
+  diagnostics.error(in("mesh.obj"), "no faces", "a face");
+  ASSERT_EQ(diagnostics.all().size(), 3u);
+  EXPECT_EQ(to_text(diagnostics.all()[0]), "mesh.obj: error: no faces (named at room.xml:6:36)\naccepted: a face");
+  EXPECT_EQ(to_text(diagnostics.all()[1]), "room.xml: error: bad");
+  EXPECT_EQ(to_text(diagnostics.all()[2]), "mesh.obj: error: no faces (named at room.xml:9:36)\naccepted: a face");
 }
 
 }  // namespace

@@ -112,13 +112,23 @@ bool FileSystem::exists(const std::string& path) const {
     std::error_code ignored;
     return std::filesystem::exists(path, ignored);
   }
+  const std::string key = builtin_key(path);
+  const auto named = [&key](const auto& file) { return file.first == key; };
+  const auto files = builtin_files();
+  return std::any_of(files.begin(), files.end(), named) || is_folder(path);
+}
+
+bool FileSystem::is_folder(const std::string& path) const {
+  if (!is_builtin(path)) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(path, ignored);
+  }
   std::string key = builtin_key(path);
   if (key == "." || key.empty()) return true;
-  if (key.ends_with('/')) key.pop_back();
-  for (const auto& [name, contents] : builtin_files()) {
-    if (name == key || name.starts_with(key + "/")) return true;
-  }
-  return false;
+  if (!key.ends_with('/')) key += '/';
+  const auto inside = [&key](const auto& file) { return file.first.starts_with(key); };
+  const auto files = builtin_files();
+  return std::any_of(files.begin(), files.end(), inside);
 }
 
 std::string folder_of(const std::string& path) {

@@ -19,6 +19,7 @@ class FileSystem {
   virtual std::optional<std::string> read(const std::string& path, std::string& error) const;
   /// Whether there is a file or a folder of that name.
   virtual bool exists(const std::string& path) const;
+  virtual bool is_folder(const std::string& path) const;
 };
 
 /// The folder part of a path with its last slash: "scenes/", "builtin:room/", "builtin:"; empty for the current one.

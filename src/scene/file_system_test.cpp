@@ -93,6 +93,11 @@ TEST_F(FileSystemTest, KnowsBuiltinFiles) {
   EXPECT_TRUE(files_.exists("builtin:room/parts"));
   EXPECT_TRUE(files_.exists("builtin:room/parts/"));
   EXPECT_FALSE(files_.exists("builtin:roo"));
+  EXPECT_TRUE(files_.is_folder("builtin:room/parts"));
+  EXPECT_TRUE(files_.is_folder("builtin:room/parts/"));
+  EXPECT_TRUE(files_.is_folder("builtin:"));
+  EXPECT_FALSE(files_.is_folder("builtin:roo"));
+  EXPECT_FALSE(files_.is_folder("builtin:room/room.xml"));
 }
 
 TEST(ResolveFile, LooksBesideTheFileThenInTheSearchPaths) {

@@ -22,9 +22,10 @@ class MemoryFiles : public FileSystem {
     return std::nullopt;
   }
 
-  bool exists(const std::string& path) const override {
+  bool exists(const std::string& path) const override { return files_.contains(normal_path(path)) || is_folder(path); }
+
+  bool is_folder(const std::string& path) const override {
     std::string folder = normal_path(path);
-    if (files_.contains(folder)) return true;
     if (!folder.ends_with('/')) folder += '/';
     const auto inside = files_.lower_bound(folder);
     return inside != files_.end() && inside->first.starts_with(folder);
