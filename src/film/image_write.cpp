@@ -103,9 +103,13 @@ IoStatus write_image(const std::string& path, const Image& image, const ToneMapp
   return write_failure(path, complaint);
 }
 
-IoStatus check_writable(const std::string& path) {
+IoStatus check_image_name(const std::string& path) {
   Format format{};
-  if (IoStatus status = find_format(path, format); !status) return status;
+  return find_format(path, format);
+}
+
+IoStatus check_writable(const std::string& path) {
+  if (IoStatus status = check_image_name(path); !status) return status;
   AtomicFile file;  // removed again, as it is not committed
   return file.create(path);
 }
