@@ -34,9 +34,12 @@ void register_all() {
     const BenchScene& room = bench_room(kind);
     for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
       const std::string suffix = std::string("/room/") + accel_name(kind) + "/" + (*k)->name;
-      benchmark::RegisterBenchmark(("closest" + suffix).c_str(), [k, &room](auto& state) { closest(state, **k, room, false); });
-      benchmark::RegisterBenchmark(("camera" + suffix).c_str(), [k, &room](auto& state) { closest(state, **k, room, true); });
-      benchmark::RegisterBenchmark(("occluded" + suffix).c_str(), [k, &room](auto& state) { occluded(state, **k, room); });
+      benchmark::RegisterBenchmark(("closest" + suffix).c_str(),
+                                   [k, &room](auto& state) { closest(state, **k, room, false); });
+      benchmark::RegisterBenchmark(("camera" + suffix).c_str(),
+                                   [k, &room](auto& state) { closest(state, **k, room, true); });
+      benchmark::RegisterBenchmark(("occluded" + suffix).c_str(),
+                                   [k, &room](auto& state) { occluded(state, **k, room); });
     }
   }
   for (const int triangles : {16, 32, 64, 128, 256, 512, 1024, 4096}) {
@@ -44,7 +47,8 @@ void register_all() {
       if (kind != AccelKind::embree && triangles > 1024) continue;
       const BenchScene& mesh = bench_sphere_mesh(triangles, kind);
       for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
-        const std::string name = "closest/mesh_" + std::to_string(triangles) + "/" + accel_name(kind) + "/" + (*k)->name;
+        const std::string name =
+            "closest/mesh_" + std::to_string(triangles) + "/" + accel_name(kind) + "/" + (*k)->name;
         benchmark::RegisterBenchmark(name.c_str(), [k, &mesh](auto& state) { closest(state, **k, mesh, false); });
       }
     }

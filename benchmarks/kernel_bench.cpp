@@ -34,7 +34,8 @@ SceneTables sphere_mesh(int triangles) {
   for (int i = 0; i <= rows; ++i) {
     for (int k = 0; k < columns; ++k) {
       const double theta = M_PI * (i + 0.01) / (rows + 0.02), phi = 2 * M_PI * k / columns, r = 3 * bump(random);
-      for (const double x : {5 + r * std::sin(theta) * std::cos(phi), r * std::sin(theta) * std::sin(phi), r * std::cos(theta)}) {
+      for (const double x :
+           {5 + r * std::sin(theta) * std::cos(phi), r * std::sin(theta) * std::sin(phi), r * std::cos(theta)}) {
         tables.positions.push_back(static_cast<float>(x));
       }
     }
@@ -42,7 +43,8 @@ SceneTables sphere_mesh(int triangles) {
   const auto vertex = [&](int i, int k) { return static_cast<std::uint32_t>(i * columns + k % columns); };
   for (int i = 0; i < rows; ++i) {
     for (int k = 0; k < columns; ++k) {
-      for (const std::uint32_t v : {vertex(i, k), vertex(i + 1, k), vertex(i + 1, k + 1), vertex(i, k), vertex(i + 1, k + 1), vertex(i, k + 1)}) {
+      for (const std::uint32_t v : {vertex(i, k), vertex(i + 1, k), vertex(i + 1, k + 1), vertex(i, k),
+                                    vertex(i + 1, k + 1), vertex(i, k + 1)}) {
         tables.triangle_vertices.push_back(v);
       }
     }
@@ -56,7 +58,10 @@ SceneTables sphere_mesh(int triangles) {
     const glm::dvec3 n = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
     const auto f = [](double x) { return static_cast<float>(x); };
     tables.surfaces.push_back({{f(n.x), f(n.y), f(n.z), f(glm::dot(n, p[0]))},
-                               make_material(BsdfKind::diffuse, 0), make_material(BsdfKind::diffuse, 0), kNone, 0});
+                               make_material(BsdfKind::diffuse, 0),
+                               make_material(BsdfKind::diffuse, 0),
+                               kNone,
+                               0});
   }
   ShapeRecord shape;
   shape.primitive_count = tables.triangle_count();
@@ -76,7 +81,8 @@ const BenchScene& bench_room(AccelKind kind) {
   static std::map<AccelKind, std::unique_ptr<BenchScene>> scenes;
   auto& scene = scenes[kind];
   if (!scene) {
-    scene = std::make_unique<BenchScene>(std::shared_ptr<const SceneTables>(&room_scene().tables().tables, [](auto*) {}), kind);
+    scene = std::make_unique<BenchScene>(
+        std::shared_ptr<const SceneTables>(&room_scene().tables().tables, [](auto*) {}), kind);
   }
   return *scene;
 }

@@ -19,11 +19,13 @@ struct StoppedWave {
   StoppedWave(const SceneView& s, const KernelEntry& k) : scene(s), kernels(k) {
     kernels.generate_camera_rays(scene, job, memory.slots, memory.rays);
     kernels.intersect_closest(scene, 1, ~1u, memory.rays, memory.hits, memory.light_hits);
-    kernels.shade_surface(scene, BsdfKind::diffuse, 1, false, memory.hits[kDiffuse], memory.slots, memory.shadow_rays, memory.next_rays);
+    kernels.shade_surface(scene, BsdfKind::diffuse, 1, false, memory.hits[kDiffuse], memory.slots, memory.shadow_rays,
+                          memory.next_rays);
     std::swap(memory.rays, memory.next_rays);
     clear();
     kernels.intersect_closest(scene, 2, ~1u, memory.rays, memory.hits, memory.light_hits);
-    kernels.shade_surface(scene, BsdfKind::diffuse, 2, false, memory.hits[kDiffuse], memory.slots, memory.shadow_rays, memory.next_rays);
+    kernels.shade_surface(scene, BsdfKind::diffuse, 2, false, memory.hits[kDiffuse], memory.slots, memory.shadow_rays,
+                          memory.next_rays);
   }
   void clear() {
     for (Queue& q : memory.hits) q.count = 0;
@@ -64,7 +66,8 @@ void register_stages(const KernelEntry& kernels) {
   });
   stage("shade_surface_diffuse", kernels, [&](StoppedWave& w) {
     w.memory.shadow_rays.count = w.memory.next_rays.count = 0;
-    kernels.shade_surface(w.scene, BsdfKind::diffuse, 2, false, w.memory.hits[kDiffuse], w.memory.slots, w.memory.shadow_rays, w.memory.next_rays);
+    kernels.shade_surface(w.scene, BsdfKind::diffuse, 2, false, w.memory.hits[kDiffuse], w.memory.slots,
+                          w.memory.shadow_rays, w.memory.next_rays);
     return w.memory.hits[kDiffuse].count;
   });
   stage("intersect_shadow", kernels, [&](StoppedWave& w) {
@@ -75,7 +78,8 @@ void register_stages(const KernelEntry& kernels) {
     static std::vector<double> sums(6 * 800 * 800);
     static std::vector<std::uint32_t> counts(800 * 800);
     DroppedSamples dropped;
-    kernels.accumulate_film(w.job, SamplerKind::independent, w.memory.slots, {sums.data(), counts.data(), nullptr, 800, 800}, dropped);
+    kernels.accumulate_film(w.job, SamplerKind::independent, w.memory.slots,
+                            {sums.data(), counts.data(), nullptr, 800, 800}, dropped);
     return w.job.slot_count();
   });
 }

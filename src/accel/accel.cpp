@@ -1,12 +1,33 @@
 #include "accel/build.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace norrsken {
+namespace {
+
+std::vector<float> triangle_extents(const SceneTables& scene) {
+  std::vector<float> extents(scene.triangle_count());
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* p = scene.positions.data() + std::size_t{3} * scene.triangle_vertices[3 * i + k];
+      extents[i] = std::max({extents[i], std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    }
+  }
+  return extents;
+}
+
+}  // namespace
 
 Accel::Accel(const SceneTables& scene, AccelKind kind) {
   spheres_ = build_spheres(scene, view_.emitter_sphere_count);
   view_.kind = kind;
   view_.spheres = spheres_.data();
   view_.sphere_count = static_cast<std::uint32_t>(spheres_.size());
+  if (kind != AccelKind::planes) {
+    triangle_extent_ = triangle_extents(scene);
+    view_.triangle_extent = triangle_extent_.data();
+  }
   if (kind == AccelKind::planes) {
     planes_ = build_planes(scene);
     view_.planes = planes_.planes.data();

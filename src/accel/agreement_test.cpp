@@ -103,7 +103,8 @@ TEST_P(Agreement, ClosestHits) {
     const Closest wanted(*reference, **k, rays, false);
     expect_agreement(*reference, rays, Closest(*planes, **k, rays, false), wanted, std::string((*k)->name) + " planes");
     expect_agreement(*reference, rays, Closest(*embree, **k, rays, false), wanted, std::string((*k)->name) + " embree");
-    expect_agreement(*reference, rays, Closest(*embree, **k, rays, true), wanted, std::string((*k)->name) + " embree packets");
+    expect_agreement(*reference, rays, Closest(*embree, **k, rays, true), wanted,
+                     std::string((*k)->name) + " embree packets");
   }
 }
 
@@ -155,7 +156,8 @@ TEST_P(Agreement, Occlusion) {
       for (std::uint32_t i = 0; i < count; ++i) {
         if (got[i] == wanted[i]) continue;
         ++differing;
-        EXPECT_TRUE(runs_along_an_edge(reference->scene.tables().tables, at(s.ox, s.oy, s.oz, i), at(s.dx, s.dy, s.dz, i)))
+        EXPECT_TRUE(
+            runs_along_an_edge(reference->scene.tables().tables, at(s.ox, s.oy, s.oz, i), at(s.dx, s.dy, s.dz, i)))
             << accel_name(viewed->view.accel.kind) << " " << (*k)->name << ": segment " << i;
       }
       EXPECT_LE(differing, count / 10'000 + 1) << accel_name(viewed->view.accel.kind) << " " << (*k)->name;
@@ -170,7 +172,7 @@ TEST(Planes, MergeTheRoomToThirteenPlanes) {
   const auto viewed = view_scene("hexagon_room", AccelKind::planes);
   const PlaneTables tables = build_planes(viewed->scene.tables().tables);
   const auto planes = [](const PlaneSet& set) { return set.axis_begin[3] - set.axis_begin[0]; };
-  EXPECT_EQ(planes(tables.all), 13u);       // floor, ceiling, 6 walls, 4 faces of the tetrahedron, the light
+  EXPECT_EQ(planes(tables.all), 13u);  // floor, ceiling, 6 walls, 4 faces of the tetrahedron, the light
   // The tetrahedron and the light; the room itself has everything on its one side that scatters.
   EXPECT_EQ(planes(tables.occluders), 5u);
   EXPECT_EQ(planes(tables.emitters), 1u);

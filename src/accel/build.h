@@ -56,6 +56,7 @@ class Accel {
  private:
   PlaneTables planes_;
   std::vector<SphereRecord> spheres_;
+  std::vector<float> triangle_extent_;
   std::unique_ptr<EmbreeScene> embree_;
   AccelView view_;
 };

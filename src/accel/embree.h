@@ -27,8 +27,10 @@ inline void closest_in_embree(const SceneView& scene, bool coherent, const Vec3f
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
 
-  const auto answer = [&](int i, float tfar, std::uint32_t geometry, std::uint32_t primitive, float n_dot_d) {
+  const auto answer = [&](int i, float tfar, std::uint32_t geometry, std::uint32_t primitive, const float& ng_x,
+                          const float& ng_y, const float& ng_z) {
     if (geometry == RTC_INVALID_GEOMETRY_ID) return;
+    const float n_dot_d = ng_x * dx[i] + ng_y * dy[i] + ng_z * dz[i];
     const std::uint32_t word = primitive_of(scene, geometry, primitive) | (n_dot_d > 0.0f ? kBackSide : 0u);
     t[i] = tfar;
     __builtin_memcpy(&side[i], &word, sizeof word);
@@ -52,8 +54,8 @@ inline void closest_in_embree(const SceneView& scene, bool coherent, const Vec3f
     rtcIntersect16(valid, embree, &context, &packet);
     for (int i = 0; i < kLanes; ++i) {
       if (valid[i] == 0) continue;
-      const float n_dot_d = packet.hit.Ng_x[i] * dx[i] + packet.hit.Ng_y[i] * dy[i] + packet.hit.Ng_z[i] * dz[i];
-      answer(i, packet.ray.tfar[i], packet.hit.geomID[i], packet.hit.primID[i], n_dot_d);
+      answer(i, packet.ray.tfar[i], packet.hit.geomID[i], packet.hit.primID[i], packet.hit.Ng_x[i], packet.hit.Ng_y[i],
+             packet.hit.Ng_z[i]);
     }
   } else {
     for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
@@ -66,8 +68,7 @@ inline void closest_in_embree(const SceneView& scene, bool coherent, const Vec3f
       one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
       one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
       rtcIntersect1(embree, &context, &one);
-      const float n_dot_d = one.hit.Ng_x * dx[i] + one.hit.Ng_y * dy[i] + one.hit.Ng_z * dz[i];
-      answer(i, one.ray.tfar, one.hit.geomID, one.hit.primID, n_dot_d);
+      answer(i, one.ray.tfar, one.hit.geomID, one.hit.primID, one.hit.Ng_x, one.hit.Ng_y, one.hit.Ng_z);
     }
   }
   hit.t = load(t);

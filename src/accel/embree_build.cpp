@@ -66,8 +66,8 @@ void occlude_sphere(const RTCOccludedFunctionNArguments* args) {
 void attach_triangles(RTCDevice device, RTCScene target, const SceneTables& scene) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const std::size_t vertices = scene.positions.size() / 3, triangles = scene.triangle_count();
-  void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                            3 * sizeof(float), vertices);
+  void* positions =
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices);
   void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                           3 * sizeof(std::uint32_t), triangles);
   if (positions == nullptr || indices == nullptr) throw std::bad_alloc();

@@ -29,8 +29,7 @@ NORRSKEN_INLINE void closest_by_moller_trumbore(const SceneView& scene, const Ve
   for (std::uint32_t i = 0; i < scene.accel.sphere_count; ++i) closest_sphere(scene.accel.spheres[i], o, d, hit);
 }
 
-NORRSKEN_INLINE Mask occluded_by_moller_trumbore(const SceneView& scene, const Vec3f& o, const Vec3f& d,
-                                                 Float t_max) {
+NORRSKEN_INLINE Mask occluded_by_moller_trumbore(const SceneView& scene, const Vec3f& o, const Vec3f& d, Float t_max) {
   Mask occluded = Float(1.0f) < Float(0.0f);
   for (std::uint32_t i = 0; i < scene.triangle_count; ++i) {
     const TriangleCrossing c = cross_triangle_of(scene, i, o, d);
@@ -47,9 +46,15 @@ NORRSKEN_INLINE ClosestHit intersect_closest_lanes(const SceneView& scene, bool 
                                                    const Vec3f& d, Mask active) {
   ClosestHit hit{Float(kInfinity), UInt(0u)};
   switch (scene.accel.kind) {
-    case AccelKind::planes: closest_in_planes(scene.accel, scene.accel.all, scene.accel.sphere_count, o, d, hit); break;
-    case AccelKind::moller_trumbore: closest_by_moller_trumbore(scene, o, d, hit); break;
-    case AccelKind::embree: closest_in_embree(scene, coherent, o, d, hit, active); break;
+    case AccelKind::planes:
+      closest_in_planes(scene.accel, scene.accel.all, scene.accel.sphere_count, o, d, hit);
+      break;
+    case AccelKind::moller_trumbore:
+      closest_by_moller_trumbore(scene, o, d, hit);
+      break;
+    case AccelKind::embree:
+      closest_in_embree(scene, coherent, o, d, hit, active);
+      break;
   }
   return hit;
 }
@@ -57,9 +62,12 @@ NORRSKEN_INLINE ClosestHit intersect_closest_lanes(const SceneView& scene, bool 
 /// Whether anything lies between the origin and `t_max`.
 NORRSKEN_INLINE Mask occluded_lanes(const SceneView& scene, const Vec3f& o, const Vec3f& d, Float t_max, Mask active) {
   switch (scene.accel.kind) {
-    case AccelKind::planes: return active & occluded_in_planes(scene.accel, o, d, t_max);
-    case AccelKind::moller_trumbore: return active & occluded_by_moller_trumbore(scene, o, d, t_max);
-    case AccelKind::embree: return occluded_in_embree(scene, o, d, t_max, active);
+    case AccelKind::planes:
+      return active & occluded_in_planes(scene.accel, o, d, t_max);
+    case AccelKind::moller_trumbore:
+      return active & occluded_by_moller_trumbore(scene, o, d, t_max);
+    case AccelKind::embree:
+      return occluded_in_embree(scene, o, d, t_max, active);
   }
   return active;
 }

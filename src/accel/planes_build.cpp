@@ -21,7 +21,7 @@ struct Point2 {
 /// Builds the planes of one set of polygons at the end of the tables.
 class PlaneSetBuilder {
  public:
-  PlaneSetBuilder(PlaneTables& tables, double scale) : tables_(tables), scale_(scale) {}
+  explicit PlaneSetBuilder(PlaneTables& tables) : tables_(tables) {}
 
   PlaneSet build(const std::vector<const ConvexPolygon*>& polygons) {
     PlaneSet set;
@@ -34,8 +34,7 @@ class PlaneSetBuilder {
       while (!rest.empty()) {
         const ConvexPolygon* first = rest.front();
         const auto others = std::stable_partition(rest.begin(), rest.end(), [&](const ConvexPolygon* p) {
-          return glm::dot(p->normal, first->normal) > 1 - kCoplanar * kCoplanar &&
-                 std::abs(p->offset - first->offset) <= kCoplanar * scale_;
+          return p->normal == first->normal && p->offset == first->offset;
         });
         add_plane(axis, {rest.begin(), others});
         rest.erase(rest.begin(), others);
@@ -82,10 +81,12 @@ class PlaneSetBuilder {
     tables_.polygons.push_back(record);
   }
 
-  bool is_parallelogram(const std::vector<Point2>& c) const {
+  static bool is_parallelogram(const std::vector<Point2>& c) {
     if (c.size() != 4) return false;
     const double du = c[0].u - c[1].u + c[2].u - c[3].u, dv = c[0].v - c[1].v + c[2].v - c[3].v;
-    return std::abs(du) <= kCoplanar * scale_ && std::abs(dv) <= kCoplanar * scale_;
+    double largest = 0;
+    for (const Point2& p : c) largest = std::max({largest, std::abs(p.u), std::abs(p.v)});
+    return std::abs(du) <= kCoplanar * largest && std::abs(dv) <= kCoplanar * largest;
   }
 
   struct Line {
@@ -121,39 +122,53 @@ class PlaneSetBuilder {
   }
 
   PlaneTables& tables_;
-  double scale_;
 };
 
 /// Whether everything (triangles, spheres, lights) is on one side of the polygon's plane, and its other side scatters
 /// nothing: then the polygon cannot come between two points that light travels between.
-bool bounds_the_scene(const SceneTables& scene, const ConvexPolygon& polygon, double scale) {
-  double lowest = 0, highest = 0;
+bool bounds_the_scene(const SceneTables& scene, const ConvexPolygon& polygon) {
+  bool all_in_front = true, all_behind = true;
   const auto extend = [&](const float* p, double radius) {
-    const double d = glm::dot(polygon.normal, glm::dvec3(p[0], p[1], p[2])) - polygon.offset;
-    lowest = std::min(lowest, d - radius);
-    highest = std::max(highest, d + radius);
+    const glm::dvec3 q(p[0], p[1], p[2]);
+    const double d = glm::dot(polygon.normal, q) - polygon.offset,
+                 tolerance = kCoplanar * std::max(magnitude(q), radius);
+    all_in_front = all_in_front && d - radius >= -tolerance;
+    all_behind = all_behind && d + radius <= tolerance;
   };
-  for (const std::uint32_t vertex : scene.triangle_vertices) extend(scene.positions.data() + std::size_t{3} * vertex, 0);
+  for (const std::uint32_t vertex : scene.triangle_vertices)
+    extend(scene.positions.data() + std::size_t{3} * vertex, 0);
   for (std::size_t i = scene.triangle_count(); i < scene.surfaces.size(); ++i) {
     extend(scene.surfaces[i].geometry, static_cast<double>(scene.surfaces[i].geometry[3]));
   }
   for (const LightRecord& light : scene.lights) {
     if (light.kind == LightKind::point) extend(light.origin, 0);
   }
-  const double tolerance = kCoplanar * scale;
   const SurfaceRecord& surface = scene.surfaces[polygon.primitive];
   const bool front_shut = material_kind(surface.material_front) == BsdfKind::absorb;
   const bool back_shut = material_kind(surface.material_back) == BsdfKind::absorb;
-  return (lowest >= -tolerance && back_shut) || (highest <= tolerance && front_shut);
+  return (all_in_front && back_shut) || (all_behind && front_shut);
+}
+
+/// Gives coplanar polygons one plane, to the bit: the sets are built apart, and a light must not find itself an ulp
+/// nearer as an occluder than as an emitter.
+void share_planes(std::vector<ConvexPolygon>& polygons) {
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    const auto end = polygons.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto same =
+        std::find_if(polygons.begin(), end, [&](const ConvexPolygon& p) { return coplanar(p, polygons[i]); });
+    if (same == end) continue;
+    polygons[i].normal = same->normal;
+    polygons[i].offset = same->offset;
+  }
 }
 
 }  // namespace
 
 PlaneTables build_planes(const SceneTables& scene) {
-  const std::vector<ConvexPolygon> polygons = merge_triangles(scene);
-  const double scale = scene_scale(scene);
+  std::vector<ConvexPolygon> polygons = merge_triangles(scene);
+  share_planes(polygons);
   PlaneTables tables;
-  PlaneSetBuilder builder(tables, scale);
+  PlaneSetBuilder builder(tables);
   const auto build_set = [&](const std::function<bool(const ConvexPolygon&)>& wanted) {
     std::vector<const ConvexPolygon*> chosen;
     for (const ConvexPolygon& p : polygons) {
@@ -162,7 +177,7 @@ PlaneTables build_planes(const SceneTables& scene) {
     return builder.build(chosen);
   };
   tables.all = build_set([](const ConvexPolygon&) { return true; });
-  tables.occluders = build_set([&](const ConvexPolygon& p) { return !bounds_the_scene(scene, p, scale); });
+  tables.occluders = build_set([&](const ConvexPolygon& p) { return !bounds_the_scene(scene, p); });
   tables.emitters = build_set([&](const ConvexPolygon& p) { return scene.surfaces[p.primitive].light != kNone; });
   return tables;
 }

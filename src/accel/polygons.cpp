@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -45,8 +47,14 @@ bool same_surface(const SceneTables& scene, std::uint32_t a, std::uint32_t b) {
          s.light == t.light && scene.shapes[s.shape].smooth == 0;
 }
 
-bool same_plane(const Triangle& a, const Triangle& b, double scale) {
-  return glm::dot(a.normal, b.normal) > 1 - kCoplanar * kCoplanar && std::abs(a.offset - b.offset) <= kCoplanar * scale;
+bool in_plane(const glm::dvec3& normal, double offset, const glm::dvec3& p) {
+  return std::abs(glm::dot(normal, p) - offset) <= kCoplanar * magnitude(p);
+}
+
+bool same_plane(const Triangle& a, const Triangle& b) {
+  return glm::dot(a.normal, b.normal) > 1 - kCoplanar * kCoplanar &&
+         std::all_of(std::begin(b.corners), std::end(b.corners),
+                     [&](const glm::dvec3& p) { return in_plane(a.normal, a.offset, p); });
 }
 
 /// The corners of a convex outline without those that lie on a straight line.
@@ -55,21 +63,23 @@ std::vector<glm::dvec3> drop_collinear(const std::vector<glm::dvec3>& corners, c
   const std::size_t n = corners.size();
   for (std::size_t i = 0; i < n; ++i) {
     const glm::dvec3 in = corners[i] - corners[(i + n - 1) % n], out = corners[(i + 1) % n] - corners[i];
-    if (glm::dot(glm::cross(in, out), normal) > kCoplanar * glm::length(in) * glm::length(out)) kept.push_back(corners[i]);
+    if (glm::dot(glm::cross(in, out), normal) > kCoplanar * glm::length(in) * glm::length(out))
+      kept.push_back(corners[i]);
   }
   return kept;
 }
 
 bool is_convex(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal) {
   const std::size_t n = corners.size();
+  double turning = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const glm::dvec3 in = corners[i] - corners[(i + n - 1) % n], out = corners[(i + 1) % n] - corners[i];
-    if (glm::dot(glm::cross(in, out), normal) < -kCoplanar * glm::length(in) * glm::length(out)) return false;
-    if (glm::dot(in, out) < 0 && glm::length(glm::cross(in, out)) <= kCoplanar * glm::length(in) * glm::length(out)) {
-      return false;  // the outline turns back on itself
-    }
+    const double sine = glm::dot(glm::cross(in, out), normal), cosine = glm::dot(in, out);
+    if (sine < -kCoplanar * glm::length(in) * glm::length(out)) return false;
+    turning += std::atan2(std::max(sine, 0.0), cosine);
   }
-  return true;
+  // Once around: a star also turns left at every corner, but twice around.
+  return turning < 3 * glm::pi<double>();
 }
 
 /// The outline of triangles that share edges: the directed edges that have no opposite. Empty if the edges do not form
@@ -121,7 +131,7 @@ bool share_edge(const Triangle& a, const Triangle& b) {
 
 class Merger {
  public:
-  explicit Merger(const SceneTables& scene) : scene_(scene), scale_(scene_scale(scene)) {
+  explicit Merger(const SceneTables& scene) : scene_(scene) {
     const std::uint32_t n = scene.triangle_count();
     triangles_.reserve(n);
     for (std::uint32_t i = 0; i < n; ++i) triangles_.push_back(make_triangle(scene, i));
@@ -146,7 +156,7 @@ class Merger {
     taken[seed] = true;
     for (std::size_t at = 0; at < patch.size(); ++at) {
       for (std::uint32_t i = seed + 1; i < triangles_.size(); ++i) {
-        if (!taken[i] && same_surface(scene_, seed, i) && same_plane(triangles_[seed], triangles_[i], scale_) &&
+        if (!taken[i] && same_surface(scene_, seed, i) && same_plane(triangles_[seed], triangles_[i]) &&
             share_edge(triangles_[patch[at]], triangles_[i])) {
           taken[i] = true;
           patch.push_back(i);
@@ -160,7 +170,8 @@ class Merger {
     const Triangle& t = triangles_[members.front()];
     const std::vector<glm::dvec3> loop = outline(triangles_, members);
     if (loop.size() < 3 || !is_convex(loop, t.normal)) return false;
-    polygons_.push_back({drop_collinear(loop, t.normal), t.normal, t.offset, *std::min_element(members.begin(), members.end())});
+    polygons_.push_back(
+        {drop_collinear(loop, t.normal), t.normal, t.offset, *std::min_element(members.begin(), members.end())});
     return true;
   }
 
@@ -183,19 +194,30 @@ class Merger {
   }
 
   const SceneTables& scene_;
-  double scale_;
   std::vector<Triangle> triangles_;
   std::vector<ConvexPolygon> polygons_;
 };
 
 }  // namespace
 
+double magnitude(const glm::dvec3& p) {
+  const glm::dvec3 a = glm::abs(p);
+  return std::max({a.x, a.y, a.z});
+}
+
+bool coplanar(const ConvexPolygon& a, const ConvexPolygon& b) {
+  return glm::dot(a.normal, b.normal) > 1 - kCoplanar * kCoplanar &&
+         std::all_of(b.corners.begin(), b.corners.end(),
+                     [&](const glm::dvec3& p) { return in_plane(a.normal, a.offset, p); });
+}
+
 double scene_scale(const SceneTables& scene) {
   double scale = std::numeric_limits<double>::min();
   for (const float p : scene.positions) scale = std::max(scale, std::abs(static_cast<double>(p)));
   for (std::size_t i = scene.triangle_count(); i < scene.surfaces.size(); ++i) {
     const float* g = scene.surfaces[i].geometry;
-    for (int k = 0; k < 3; ++k) scale = std::max(scale, std::abs(static_cast<double>(g[k])) + static_cast<double>(g[3]));
+    for (int k = 0; k < 3; ++k)
+      scale = std::max(scale, std::abs(static_cast<double>(g[k])) + static_cast<double>(g[3]));
   }
   return scale;
 }

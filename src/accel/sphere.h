@@ -21,8 +21,8 @@ NORRSKEN_INLINE SphereCrossing cross_sphere(const float* center, float radius, c
   const Vec3f l = broadcast(center) - o;
   const Float tca = dot(l, d);
   const Vec3f rejected = l - d * tca;
-  const Float gap = fnma(rejected.x, rejected.x,
-                         fnma(rejected.y, rejected.y, fnma(rejected.z, rejected.z, Float(radius * radius))));
+  const Float gap =
+      fnma(rejected.x, rejected.x, fnma(rejected.y, rejected.y, fnma(rejected.z, rejected.z, Float(radius * radius))));
   const Float thc = sqrt(max(gap, Float(0.0f)));
   return {tca - thc, tca + thc, gap > Float(0.0f)};
 }

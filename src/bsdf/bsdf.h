@@ -17,9 +17,9 @@ namespace norrsken::NORRSKEN_ISA {
 
 struct BsdfSample {
   Vec3f wi;
-  Vec3f weight;   ///< f |cos| / pdf_sa; for a delta direction its share of the light
-  Float pdf_sa;   ///< 0 for a delta direction
-  Mask valid;     ///< false: nothing scatters here, the path ends
+  Vec3f weight;  ///< f |cos| / pdf_sa; for a delta direction its share of the light
+  Float pdf_sa;  ///< 0 for a delta direction
+  Mask valid;    ///< false: nothing scatters here, the path ends
 };
 
 }  // namespace norrsken::NORRSKEN_ISA

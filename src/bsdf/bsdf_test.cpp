@@ -33,7 +33,8 @@ class EveryBsdf : public testing::Test {
 
   BsdfSample sample(const Vec3f& wo) {
     const Float lobe(static_cast<float>(unit(random)));
-    return Model::sample(bsdf, wo, lobe, {static_cast<float>(unit(random) * 0.9999999), static_cast<float>(unit(random) * 0.9999999)});
+    return Model::sample(bsdf, wo, lobe,
+                         {static_cast<float>(unit(random) * 0.9999999), static_cast<float>(unit(random) * 0.9999999)});
   }
 };
 

@@ -18,8 +18,7 @@ struct CameraRay {
 
 /// `px` and `py` in pixels from the film's top left corner.
 NORRSKEN_INLINE CameraRay sample_perspective(const CameraRecord& camera, Float px, Float py) {
-  const Vec3f d =
-      normalize(fma(broadcast(camera.du), px, fma(broadcast(camera.dv), py, broadcast(camera.base))));
+  const Vec3f d = normalize(fma(broadcast(camera.du), px, fma(broadcast(camera.dv), py, broadcast(camera.base))));
   const Float to_near_plane = Float(camera.near_clip) / dot(d, broadcast(camera.forward));
   return {fma(d, to_near_plane, broadcast(camera.origin)), d};
 }

@@ -49,7 +49,7 @@ FilmView Film::view() {
 
 PixelEstimate Film::estimate(std::uint64_t pixel, int channel) const {
   const std::size_t pixels = counts_.size();
-  const std::uint32_t n = counts_[pixel];
+  const std::uint32_t n = counts_[pixel] & ~kSomeDropped;
   if (n == 0) return {};
   const auto sum = [&](std::uint32_t plane) { return sums_[plane * pixels + pixel]; };
   const double count = n;
@@ -62,20 +62,21 @@ PixelEstimate Film::estimate(std::uint64_t pixel, int channel) const {
     return {mean, std::max(variance, 0.0), true};
   }
 
+  const bool some_dropped = (counts_[pixel] & kSomeDropped) != 0;
   // Independent scramblings as replicates: the spread of their means, each weighted with its share of the samples.
-  double total = 0;
-  for (std::uint32_t r = 0; r < kReplicates; ++r) total += sum(3 * r + c);
+  double sums[kReplicates], total = 0;
+  for (std::uint32_t r = 0; r < kReplicates; ++r) total += sums[r] = sum(3 * r + c);
   const double mean = total / count;
   double spread = 0;
   std::uint32_t replicates = 0;
   for (std::uint32_t r = 0; r < kReplicates; ++r) {
     const double share = replicate_count(n, r);
     if (share == 0) break;
-    const double deviation = sum(3 * r + c) - share * mean;  // share * (mean of r - mean)
+    const double deviation = sums[r] - share * mean;  // share * (mean of r - mean)
     spread += deviation * deviation;
     ++replicates;
   }
-  if (replicates < 2) return {mean, 0, false};
+  if (replicates < 2 || some_dropped) return {mean, 0, false};
   const double k = replicates;
   return {mean, spread / (count * count) * k / (k - 1), true};
 }
@@ -122,7 +123,7 @@ Image Film::image(bool layers, std::uint32_t feature_samples) const {
       image.channels[variance[c]].values[i] = static_cast<float>(known);
       image.channels[error[c]].values[i] = static_cast<float>(std::sqrt(known));
     }
-    if (layers) image.channels[samples].values[i] = static_cast<float>(counts_[i]);
+    if (layers) image.channels[samples].values[i] = static_cast<float>(counts_[i] & ~kSomeDropped);
   }
   if (!features_.empty() && feature_samples > 0) {
     for (std::uint32_t k = 0; k < kFeaturePlanes; ++k) {

@@ -18,14 +18,14 @@ struct FilmRegion {
 /// Mean and variance of the mean of one pixel's channel.
 struct PixelEstimate {
   double mean = 0;
-  double variance = 0;          ///< of the mean; meaningful if `known`
-  bool known = false;           ///< false while there are fewer than two independent estimates
+  double variance = 0;  ///< of the mean; meaningful if `known`
+  bool known = false;   ///< false while there are fewer than two independent estimates
 };
 
 /// Totals over pixels and channels, for the error of the whole image.
 struct FilmError {
   double mean_sum = 0, variance_sum = 0;
-  std::uint64_t channels = 0;   ///< pixel channels whose variance is known
+  std::uint64_t channels = 0;  ///< pixel channels whose variance is known
 
   void operator+=(const FilmError& other);
   /// sqrt(mean variance) / mean; -1 if nothing is known yet.

@@ -5,8 +5,8 @@
 
 namespace norrsken {
 
-#define NORRSKEN_BUILT_ISA(space) \
-  namespace space {               \
+#define NORRSKEN_BUILT_ISA(space)  \
+  namespace space {                \
   extern const KernelEntry kEntry; \
   }
 #include "isa/built.def"

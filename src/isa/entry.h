@@ -16,7 +16,7 @@ struct RayArrays {
 
 /// Every function is compiled for one instruction set; arguments are plain tables.
 struct KernelEntry {
-  const char* name;      ///< as on the command line: "avx512"
+  const char* name;  ///< as on the command line: "avx512"
   std::uint32_t lanes;
 
   // Whole waves: what a worker calls.
@@ -41,8 +41,8 @@ struct KernelEntry {
   void (*closest_rays)(const SceneView&, bool coherent, const RayArrays&, float* t, std::uint32_t* primitive_side);
   void (*occluded_rays)(const SceneView&, const RayArrays&, const float* t_max, std::uint8_t* occluded);
   /// One 2D point for each pixel of [0, count): out x and y.
-  void (*sample_2d)(SamplerKind, std::uint64_t seed, std::uint32_t sample, std::uint32_t dimension,
-                    std::uint32_t count, float* x, float* y);
+  void (*sample_2d)(SamplerKind, std::uint64_t seed, std::uint32_t sample, std::uint32_t dimension, std::uint32_t count,
+                    float* x, float* y);
 };
 
 /// An instruction set that was built and that this processor can run, by name ("avx512", "avx2", "sse4.2" or "neon",

@@ -72,9 +72,8 @@ inline std::vector<std::vector<float>> sorted_records(const Queue& q, std::uint3
     for (std::uint32_t k = 0; k < fields; ++k) record.push_back(q.field(k)[i]);
     records.push_back(std::move(record));
   }
-  std::stable_sort(records.begin(), records.end(), [&](const auto& a, const auto& b) {
-    return word_of(a[slot_field]) < word_of(b[slot_field]);
-  });
+  std::stable_sort(records.begin(), records.end(),
+                   [&](const auto& a, const auto& b) { return word_of(a[slot_field]) < word_of(b[slot_field]); });
   return records;
 }
 

@@ -7,17 +7,18 @@ namespace {
 
 void run_shade_surface(const SceneView& scene, BsdfKind kind, std::uint32_t hit_number, bool roulette,
                        const Queue& hits, const Queue& slots, Queue& shadow_rays, Queue& next_rays) {
-  const ShadeSettings settings{
-      hit_number, 0, static_cast<std::uint32_t>(scene.integrator.emitter_samples), true, roulette};
+  const ShadeSettings settings{hit_number, 0, static_cast<std::uint32_t>(scene.integrator.emitter_samples), true,
+                               roulette};
   switch (kind) {
-#define NORRSKEN_BSDF(kind, Model)                                                                     \
-  case BsdfKind::kind:                                                                                 \
-    shade_surface<Model>(scene, settings, hits, 0, hits.count, slots, shadow_rays, next_rays);         \
+#define NORRSKEN_BSDF(kind, Model)                                                             \
+  case BsdfKind::kind:                                                                         \
+    shade_surface<Model>(scene, settings, hits, 0, hits.count, slots, shadow_rays, next_rays); \
     break;
 #include "bsdf/list.def"
 #undef NORRSKEN_BSDF
     case BsdfKind::absorb:
-    case BsdfKind::count: break;
+    case BsdfKind::count:
+      break;
   }
 }
 
@@ -41,8 +42,8 @@ void run_occluded_rays(const SceneView& scene, const RayArrays& rays, const floa
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     const Mask active = first_lanes(rays.count - i);
     const std::uint32_t lanes =
-        to_bits(occluded_lanes(scene, load_rays(rays.ox, rays.oy, rays.oz, i),
-                               load_rays(rays.dx, rays.dy, rays.dz, i), load(t_max + i), active));
+        to_bits(occluded_lanes(scene, load_rays(rays.ox, rays.oy, rays.oz, i), load_rays(rays.dx, rays.dy, rays.dz, i),
+                               load(t_max + i), active));
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(kLanes) && i + k < rays.count; ++k) {
       occluded[i + k] = static_cast<std::uint8_t>((lanes >> k) & 1u);
     }
@@ -64,20 +65,13 @@ void run_sample_2d(SamplerKind kind, std::uint64_t seed, std::uint32_t sample, s
 
 extern const KernelEntry kEntry;
 const KernelEntry kEntry = {
-    NORRSKEN_ISA_NAME,
-    kLanes,
-    trace_wave,
-    trace_features,
-    accumulate_film,
-    accumulate_features,
-    generate_camera_rays,
-    intersect_closest,
-    intersect_emitters,
-    intersect_shadow,
-    shade_emission,
-    run_shade_surface,
-    run_closest_rays,
-    run_occluded_rays,
+    NORRSKEN_ISA_NAME,    kLanes,
+    trace_wave,           trace_features,
+    accumulate_film,      accumulate_features,
+    generate_camera_rays, intersect_closest,
+    intersect_emitters,   intersect_shadow,
+    shade_emission,       run_shade_surface,
+    run_closest_rays,     run_occluded_rays,
     run_sample_2d,
 };
 

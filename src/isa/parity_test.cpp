@@ -72,7 +72,8 @@ void expect_equal_queues(const Queue& got, const Queue& wanted, std::uint32_t fi
     ++i, ++k;
   }
   strays += (a.size() - i) + (b.size() - k);
-  EXPECT_LE(strays, std::max(a.size(), b.size()) / 200) << what << ": " << a.size() << " and " << b.size() << " records";
+  EXPECT_LE(strays, std::max(a.size(), b.size()) / 200)
+      << what << ": " << a.size() << " and " << b.size() << " records";
 }
 
 void expect_equal_slots(const Queue& got, const Queue& wanted, const std::string& what) {
@@ -122,8 +123,8 @@ TEST_P(Parity, IntersectClosest) {
         expect_equal_queues(a.memory.hits[kind], b.memory.hits[kind], kHitFieldCount, kRaySlot,
                             {kRaySlot, kHitPrimitive, kHitMaterial}, label(*kernels, n));
       }
-      expect_equal_queues(a.memory.light_hits, b.memory.light_hits, kHitFieldCount, kRaySlot,
-                          {kRaySlot, kHitMaterial}, label(*kernels, n));
+      expect_equal_queues(a.memory.light_hits, b.memory.light_hits, kHitFieldCount, kRaySlot, {kRaySlot, kHitMaterial},
+                          label(*kernels, n));
       if (n == 1000) {
         EXPECT_GT(b.memory.hits[kDiffuse].count, 900u);
         EXPECT_GT(b.memory.hits[kConductor].count, 10u);
@@ -139,8 +140,8 @@ TEST_P(Parity, IntersectEmittersFindsWhatIntersectClosestFinds) {
       Made a(n), b(n);
       (*k)->intersect_emitters(scene(), a.memory.rays, a.memory.light_hits);
       oracle().intersect_closest(scene(), 2, 0u, b.memory.rays, b.memory.hits, b.memory.light_hits);
-      expect_equal_queues(a.memory.light_hits, b.memory.light_hits, kHitFieldCount, kRaySlot,
-                          {kRaySlot, kHitMaterial}, label(**k, n));
+      expect_equal_queues(a.memory.light_hits, b.memory.light_hits, kHitFieldCount, kRaySlot, {kRaySlot, kHitMaterial},
+                          label(**k, n));
     }
   }
 }
@@ -155,11 +156,16 @@ TEST_P(Parity, ShadeSurfaceAndIntersectShadow) {
           const Queue& hits_a = a.memory.hits[static_cast<std::size_t>(kind)];
           const Queue& hits_b = b.memory.hits[static_cast<std::size_t>(kind)];
           // Two shadow rays per hit must fit.
-          if (2 * hits_a.count > a.memory.shadow_rays.capacity) const_cast<Queue&>(hits_a).count = const_cast<Queue&>(hits_b).count = 500;
-          kernels->shade_surface(scene(), kind, 2, roulette, hits_a, a.memory.slots, a.memory.shadow_rays, a.memory.next_rays);
-          oracle().shade_surface(scene(), kind, 2, roulette, hits_b, b.memory.slots, b.memory.shadow_rays, b.memory.next_rays);
-          expect_equal_queues(a.memory.next_rays, b.memory.next_rays, kRayFieldCount, kRaySlot, {kRaySlot}, label(*kernels, n));
-          expect_equal_queues(a.memory.shadow_rays, b.memory.shadow_rays, kShadowFieldCount, kShadowSlot, {kShadowSlot}, label(*kernels, n));
+          if (2 * hits_a.count > a.memory.shadow_rays.capacity)
+            const_cast<Queue&>(hits_a).count = const_cast<Queue&>(hits_b).count = 500;
+          kernels->shade_surface(scene(), kind, 2, roulette, hits_a, a.memory.slots, a.memory.shadow_rays,
+                                 a.memory.next_rays);
+          oracle().shade_surface(scene(), kind, 2, roulette, hits_b, b.memory.slots, b.memory.shadow_rays,
+                                 b.memory.next_rays);
+          expect_equal_queues(a.memory.next_rays, b.memory.next_rays, kRayFieldCount, kRaySlot, {kRaySlot},
+                              label(*kernels, n));
+          expect_equal_queues(a.memory.shadow_rays, b.memory.shadow_rays, kShadowFieldCount, kShadowSlot, {kShadowSlot},
+                              label(*kernels, n));
           if (n == 1000 && kind == BsdfKind::diffuse) {
             EXPECT_GT(b.memory.shadow_rays.count, 500u);
           }

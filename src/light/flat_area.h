@@ -17,9 +17,9 @@ struct FlatAreaLight {
     const Vec3f to_light = point - reference;
     const Float distance2 = dot(to_light, to_light);
     const Float facing = -dot(to_light, light.normal);  // cos at the light, times the distance
-    const Float scale = max(abs(point.x), max(abs(point.y), abs(point.z)));
+    const Float scale = largest(light.origin) + largest(light.edge1) + largest(light.edge2);
     const Float pdf = distance2 * sqrt(distance2) / (facing * light.area);
-    return {fma(light.normal, scale * Float(64.0f * 0x1p-24f), point), pdf, light.emission, facing > Float(0.0f)};
+    return {fma(light.normal, scale * Float(kOffsetUlps), point), pdf, light.emission, facing > Float(0.0f)};
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const Light& light, const Vec3f&, const Vec3f& direction, Float distance) {

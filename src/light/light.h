@@ -19,22 +19,30 @@ struct Light {
 
 /// A point on a light, seen from a reference point. `pdf_sa` does not count the choice of the light.
 struct LightSample {
-  Vec3f point;      ///< on the light, moved off it towards the reference point by the rounding bound
-  Float pdf_sa;     ///< 1 for a delta light, whose `radiance` has the falloff in it
+  Vec3f point;   ///< on the light, moved off it towards the reference point by the rounding bound
+  Float pdf_sa;  ///< 1 for a delta light, whose `radiance` has the falloff in it
   Vec3f radiance;
-  Mask valid;       ///< false: this side does not emit
+  Mask valid;  ///< false: this side does not emit
 };
 
 inline constexpr std::uint32_t kLightFloats = sizeof(LightRecord) / sizeof(float);
 enum LightField : std::uint32_t {
-  kLightKind, kLightProb, kLightArea, kLightAliasProb, kLightAlias, kLightOrigin, kLightEdge1 = 8, kLightEdge2 = 11,
-  kLightNormal = 14, kLightEmission = 17
+  kLightKind,
+  kLightProb,
+  kLightArea,
+  kLightAliasProb,
+  kLightAlias,
+  kLightOrigin,
+  kLightEdge1 = 8,
+  kLightEdge2 = 11,
+  kLightNormal = 14,
+  kLightEmission = 17
 };
 static_assert(kLightFloats == 20);
 
 NORRSKEN_INLINE Light broadcast_light(const LightRecord& r) {
-  return {Float(r.area), broadcast(r.origin), broadcast(r.edge1), broadcast(r.edge2), broadcast(r.normal),
-          broadcast(r.emission)};
+  return {Float(r.area),      broadcast(r.origin), broadcast(r.edge1),
+          broadcast(r.edge2), broadcast(r.normal), broadcast(r.emission)};
 }
 NORRSKEN_INLINE Light gather_light(const LightRecord* records, UInt index, Mask active) {
   const auto* base = reinterpret_cast<const float*>(records);
@@ -44,13 +52,14 @@ NORRSKEN_INLINE Light gather_light(const LightRecord* records, UInt index, Mask 
           gather3(base + kLightNormal, first, active), gather3(base + kLightEmission, first, active)};
 }
 
-/// Alias method (Walker 1977, Vose 1991): one uniform number picks a column and then one of its two lights.
-NORRSKEN_INLINE UInt pick_light(const SceneView& scene, Float u, Mask active) {
-  const Float scaled = u * Float(static_cast<float>(scene.light_count));
+/// Alias method (Walker 1977, Vose 1991): u.x picks a column, u.y one of its two lights. One number for both would
+/// have too few bits left for the second choice when there are many lights.
+NORRSKEN_INLINE UInt pick_light(const SceneView& scene, Vec2f u, Mask active) {
+  const Float scaled = u.x * Float(static_cast<float>(scene.light_count));
   const UInt column = to_uint(min(scaled, Float(static_cast<float>(scene.light_count - 1))));
   const auto* base = reinterpret_cast<const float*>(scene.lights);
   const UInt first = column * UInt(kLightFloats);
-  const Mask keep = scaled - to_float(column) < gather(base + kLightAliasProb, first, active);
+  const Mask keep = u.y < gather(base + kLightAliasProb, first, active);
   return select(keep, column, gather_uint(base + kLightAlias, first, active));
 }
 

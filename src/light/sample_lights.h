@@ -10,8 +10,8 @@ namespace norrsken::NORRSKEN_ISA {
 
 struct LightChoice {
   LightSample sample;
-  Float prob;        ///< of the light
-  Mask delta;        ///< a point: no other way of sampling finds it
+  Float prob;  ///< of the light
+  Mask delta;  ///< a point: no other way of sampling finds it
 };
 
 NORRSKEN_INLINE LightSample select(Mask m, const LightSample& a, const LightSample& b) {
@@ -30,7 +30,7 @@ NORRSKEN_INLINE void add_light_kind(LightKind kind, bool is_delta, const SceneVi
 }
 
 /// `pick` chooses the light, `u` the point on it. With one light nothing is looked up.
-NORRSKEN_INLINE LightChoice sample_one_light(const SceneView& scene, const Vec3f& reference, Float pick, Vec2f u,
+NORRSKEN_INLINE LightChoice sample_one_light(const SceneView& scene, const Vec3f& reference, Vec2f pick, Vec2f u,
                                              Mask active) {
   const Mask never = Float(1.0f) < Float(0.0f);
   if (scene.light_count == 1) {
@@ -38,10 +38,12 @@ NORRSKEN_INLINE LightChoice sample_one_light(const SceneView& scene, const Vec3f
     const Light light = broadcast_light(record);
     switch (record.kind) {
 #define NORRSKEN_LIGHT(kind, Model, is_delta) \
-  case LightKind::kind: return {Model::sample(light, reference, u), Float(1.0f), is_delta ? !never : never};
+  case LightKind::kind:                       \
+    return {Model::sample(light, reference, u), Float(1.0f), is_delta ? !never : never};
 #include "light/list.def"
 #undef NORRSKEN_LIGHT
-      case LightKind::count: break;
+      case LightKind::count:
+        break;
     }
   }
   const UInt light = pick_light(scene, pick, active);
@@ -50,7 +52,7 @@ NORRSKEN_INLINE LightChoice sample_one_light(const SceneView& scene, const Vec3f
   LightChoice choice{{reference, Float(1.0f), {Float(0.0f), Float(0.0f), Float(0.0f)}, never},
                      light_prob(scene, light, active),
                      never};
-#define NORRSKEN_LIGHT(kind, Model, is_delta)                                 \
+#define NORRSKEN_LIGHT(kind, Model, is_delta)                                  \
   if (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind))) \
     add_light_kind<Model>(LightKind::kind, is_delta, scene, light, kinds, reference, u, active, choice);
 #include "light/list.def"
@@ -65,9 +67,9 @@ NORRSKEN_INLINE Float light_pdf_sa(const SceneView& scene, UInt light, const Vec
   const UInt kinds = gather_uint(base + kLightKind, light * UInt(kLightFloats), active);
   const Light lanes = gather_light(scene.lights, light, active);
   Float pdf(0.0f);
-#define NORRSKEN_LIGHT(kind, Model, is_delta)                                                            \
-  if (!is_delta && (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind))))            \
-    pdf = select(kinds == UInt(static_cast<std::uint32_t>(LightKind::kind)),                             \
+#define NORRSKEN_LIGHT(kind, Model, is_delta)                                                 \
+  if (!is_delta && (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind)))) \
+    pdf = select(kinds == UInt(static_cast<std::uint32_t>(LightKind::kind)),                  \
                  Model::pdf_sa(lanes, reference, direction, distance), pdf);
 #include "light/list.def"
 #undef NORRSKEN_LIGHT

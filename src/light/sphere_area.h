@@ -33,8 +33,9 @@ struct SphereAreaLight {
     const Vec3f direction = frame.to_world(local);
     const Float closest = dot(axis, direction);
     const Vec3f rejected = axis - direction * closest;
-    const Float half_chord = sqrt(max(fnma(rejected.x, rejected.x,
-        fnma(rejected.y, rejected.y, fnma(rejected.z, rejected.z, radius * radius))), Float(0.0f)));
+    const Float half_chord = sqrt(
+        max(fnma(rejected.x, rejected.x, fnma(rejected.y, rejected.y, fnma(rejected.z, rejected.z, radius * radius))),
+            Float(0.0f)));
     const Vec3f entry = normalize(fma(direction, closest - half_chord, -axis));
 
     // A point of the area.
@@ -47,11 +48,10 @@ struct SphereAreaLight {
     const Vec3f point = fma(normal, radius, light.origin);
     const Vec3f to_light = point - reference;
     const Float d2 = dot(to_light, to_light);
-    const Float area_pdf =
-        pdf_sa_from_pdf_area(Float(1.0f) / light.area, d2, abs(dot(to_light, normal)) / sqrt(d2));
-    const Float scale = max(abs(point.x), max(abs(point.y), abs(point.z))) + radius;
+    const Float area_pdf = pdf_sa_from_pdf_area(Float(1.0f) / light.area, d2, abs(dot(to_light, normal)) / sqrt(d2));
+    const Float scale = largest(point) + radius;
     const Float side = select(cone, Float(1.0f), Float(-1.0f));
-    return {fma(normal, side * scale * Float(64.0f * 0x1p-24f), point), select(cone, cone_pdf_sa(h), area_pdf),
+    return {fma(normal, side * scale * Float(kOffsetUlps), point), select(cone, cone_pdf_sa(h), area_pdf),
             light.emission, cone | (flipped & (dot(to_light, normal) > Float(0.0f)))};
   }
 

@@ -55,6 +55,13 @@ NORRSKEN_INLINE F max_component(const Vec3<F>& a) {
   return max(a.x, max(a.y, a.z));
 }
 
+/// The largest absolute component.
+NORRSKEN_INLINE Float largest(const Vec3f& a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
+
+/// A point that was computed lies off its surface, and the next intersection with that surface is off, by a few ulps of
+/// the largest coordinate that takes part; 64 of them leave room for the triangle tests of every intersector.
+inline constexpr float kOffsetUlps = 64.0f * 0x1p-24f;
+
 NORRSKEN_INLINE Vec3f select(Mask m, const Vec3f& a, const Vec3f& b) {
   return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
 }

@@ -15,8 +15,9 @@ using std::chrono::milliseconds;
 
 /// Waves of scenes with many shadow rays per hit are made smaller, so that stopping never takes long.
 std::uint32_t slots_per_wave(const IntegratorSettings& integrator) {
+  constexpr std::uint32_t kManyRays = 256;
   const auto rays = static_cast<std::uint32_t>(integrator.emitter_samples);
-  return std::clamp(kWaveSlots / std::max(rays / 64, 1u), 16 * kMaxLanes, kWaveSlots);
+  return std::clamp(kWaveSlots / std::max(rays / kManyRays, 1u), kMaxLanes, kWaveSlots);
 }
 
 /// Threads that are waited for, whatever happens: leaving early tells them to stop and joins them.
@@ -84,7 +85,12 @@ struct Crew::Tile {
 
 Crew::Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, int threads,
            const std::atomic<bool>& cancelled)
-    : scene_(scene), kernels_(kernels), film_(film), film_view_(film.view()), threads_(threads), cancelled_(cancelled) {}
+    : scene_(scene),
+      kernels_(kernels),
+      film_(film),
+      film_view_(film.view()),
+      threads_(threads),
+      cancelled_(cancelled) {}
 
 Crew::~Crew() = default;
 
@@ -105,13 +111,15 @@ void Crew::run_pass(Pass pass, const WorkPlan& plan, const std::function<void()>
     tiles_[i].region = {job.x0, job.y0, job.width, job.height};
   }
 
-  const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(threads_), plan.wave_count()));
+  const auto wanted =
+      static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(threads_), plan.wave_count()));
   // All memory before the first thread: what runs in the threads cannot fail.
   std::vector<WaveArena> arenas(wanted);
   std::atomic<std::uint64_t> next_wave{0};
   Gathering gathering(stop_);
   for (WaveArena& arena : arenas) {
-    if (!gathering.start([this, pass, &plan, &next_wave, &arena] { work(pass, plan, next_wave, arena.memory()); })) break;
+    if (!gathering.start([this, pass, &plan, &next_wave, &arena] { work(pass, plan, next_wave, arena.memory()); }))
+      break;
   }
   threads_used_ = gathering.size();
   if (threads_used_ == 0) throw std::runtime_error("the system starts no more threads");
@@ -164,9 +172,13 @@ void Crew::add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, Wave
 }
 
 double Crew::relative_error() {
+  // Looking costs a pass over the film, so it is done once a second, and only while it would tell something new.
   const std::uint64_t samples = samples_done();
-  // Looking costs a pass over the film: once per sixteenth of growth keeps it far below the rendering itself.
-  if (samples < last_error_samples_ + last_error_samples_ / 16 + 1) return last_error_;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_look_ < std::chrono::seconds(1) || samples < last_error_samples_ + last_error_samples_ / 16 + 1) {
+    return last_error_;
+  }
+  last_look_ = now;
   last_error_samples_ = samples;
   FilmError total;
   for (std::uint64_t i = 0; i < tile_count_; ++i) {

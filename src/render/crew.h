@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -61,6 +62,7 @@ class Crew {
   WaveCounts counts_;
   DroppedSamples dropped_;
 
+  std::chrono::steady_clock::time_point last_look_{};
   double last_error_ = -1;
   std::uint64_t last_error_samples_ = 0;
 };

@@ -13,7 +13,6 @@
 namespace norrsken {
 namespace {
 
-constexpr int kMaxThreads = 1024;
 constexpr std::uint32_t kFeatureSamples = 16;
 
 std::string usable_isa_list() {
@@ -31,7 +30,8 @@ class RenderSession final : public Render {
         accel_(tables_, accel_kind),
         view_(make_scene_view(tables_, accel_.view())),
         threads_(crew_size(options.threads)),
-        samples_(static_cast<std::uint64_t>(options.samples_per_pixel.value_or(static_cast<int>(view_.sampler.samples_per_pixel)))),
+        samples_(static_cast<std::uint64_t>(
+            options.samples_per_pixel.value_or(static_cast<int>(view_.sampler.samples_per_pixel)))),
         film_(view_.film, view_.sampler.kind, options.features),
         features_(options.features) {
     view_.sampler.seed += options.seed;
@@ -69,7 +69,8 @@ class RenderSession final : public Render {
     s.lanes = static_cast<int>(kernels_.lanes);
     s.accelerator = accel_name(view_.accel.kind);
     if (on_progress) {
-      on_progress({s.samples, total, s.seconds, static_cast<double>(s.samples) / std::max(s.seconds, 1e-9), s.relative_error});
+      on_progress(
+          {s.samples, total, s.seconds, static_cast<double>(s.samples) / std::max(s.seconds, 1e-9), s.relative_error});
     }
     return s;
   }
@@ -96,7 +97,8 @@ class RenderSession final : public Render {
 
 std::vector<std::string> usable_isas() {
   std::vector<std::string> names;
-  for (const KernelEntry* const* entry = usable_kernels(); *entry != nullptr; ++entry) names.emplace_back((*entry)->name);
+  for (const KernelEntry* const* entry = usable_kernels(); *entry != nullptr; ++entry)
+    names.emplace_back((*entry)->name);
   return names;
 }
 
@@ -114,7 +116,8 @@ std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& 
     diagnostics.error({}, "number of threads is " + std::to_string(options.threads),
                       "0 (one per hardware thread) to " + std::to_string(kMaxThreads));
   }
-  const AccelKind accel = choose_accel(options.accelerator, scene.tables().tables, kernels != nullptr ? kernels->lanes : 1, diagnostics);
+  const AccelKind accel =
+      choose_accel(options.accelerator, scene.tables().tables, kernels != nullptr ? kernels->lanes : 1, diagnostics);
   if (diagnostics.has_errors()) return nullptr;
   return std::make_unique<RenderSession>(scene, options, *kernels, accel);
 }

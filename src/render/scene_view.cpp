@@ -5,16 +5,14 @@
 namespace norrsken {
 namespace {
 
-/// Where the depth has no limit, or none that helps, Russian roulette must come some time: paths in a closed white room
-/// would not end.
+/// Russian roulette, which changes no mean, must come some time: paths in a closed white room would not end.
 constexpr int kLatestRoulette = 4096;
 
 constexpr struct {
   const char* name;
   AccelKind kind;
-} kAccels[] = {{"planes", AccelKind::planes},
-               {"moller_trumbore", AccelKind::moller_trumbore},
-               {"embree", AccelKind::embree}};
+} kAccels[] = {
+    {"planes", AccelKind::planes}, {"moller_trumbore", AccelKind::moller_trumbore}, {"embree", AccelKind::embree}};
 
 }  // namespace
 
@@ -26,9 +24,10 @@ AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::
   for (const auto& accel : kAccels) {
     if (name != accel.name) continue;
     if (accel.kind == AccelKind::planes && primitives > kPlanesAtMost) {
-      diagnostics.error({}, "accelerator 'planes' is for small scenes, and this one has " +
-                                std::to_string(primitives) + " primitives",
-                        "at most " + std::to_string(kPlanesAtMost) + " primitives, or embree");
+      diagnostics.error(
+          {},
+          "accelerator 'planes' is for small scenes, and this one has " + std::to_string(primitives) + " primitives",
+          "at most " + std::to_string(kPlanesAtMost) + " primitives, or embree");
     }
     return accel.kind;
   }
@@ -59,14 +58,13 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
     view.any_area_light = view.any_area_light || s.light != kNone;
   }
   for (const LightRecord& light : tables.lights) view.light_kinds |= 1u << static_cast<std::uint32_t>(light.kind);
-  view.any_smooth = std::any_of(tables.shapes.begin(), tables.shapes.end(), [](const ShapeRecord& s) { return s.smooth != 0; });
+  view.any_smooth =
+      std::any_of(tables.shapes.begin(), tables.shapes.end(), [](const ShapeRecord& s) { return s.smooth != 0; });
   view.camera = tables.camera;
   view.film = tables.film;
   view.sampler = tables.sampler;
   view.integrator = tables.integrator;
-  if (view.integrator.max_depth < 0 || view.integrator.max_depth > kLatestRoulette) {
-    view.integrator.rr_depth = std::min(view.integrator.rr_depth, kLatestRoulette);
-  }
+  view.integrator.rr_depth = std::min(view.integrator.rr_depth, kLatestRoulette);
   view.accel = accel;
   return view;
 }

@@ -13,7 +13,8 @@ std::uint32_t divide_up(std::uint64_t a, std::uint64_t b) { return static_cast<s
 
 WorkPlan::WorkPlan(std::uint32_t width, std::uint32_t height, std::uint64_t samples, std::uint32_t slots_per_wave)
     : width_(width), height_(height), samples_(samples) {
-  block_ = static_cast<std::uint32_t>(std::min(samples, kSamplesPerWave));
+  block_ = static_cast<std::uint32_t>(
+      std::min({samples, kSamplesPerWave, std::uint64_t{std::max(slots_per_wave / kMaxLanes, 1u)}}));
   // Tiles as wide as a register or two, so that lanes are neighbours, and as high as the slots allow.
   const std::uint32_t pixels = std::max(kMaxLanes, slots_per_wave / std::max(block_, 1u) / kMaxLanes * kMaxLanes);
   tile_width_ = std::min(width, pixels >= 64 * kMaxLanes ? 2 * kMaxLanes : kMaxLanes);

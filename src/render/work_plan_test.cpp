@@ -14,14 +14,15 @@ TEST(WorkPlan, CoversEverySampleOnceAndInOrder) {
     std::uint64_t samples;
     std::uint32_t slots;
   };
-  for (const Case c : {Case{1, 1, 1, 1024}, Case{1, 1, 1000, 1024}, Case{17, 5, 3, 256}, Case{100, 3, 33, 1024},
-                       Case{33, 70, 16, 4096}, Case{3, 200, 150, 1024}, Case{64, 64, 5, 512}}) {
+  for (const Case c :
+       {Case{1, 1, 1, 1024}, Case{1, 1, 1000, 1024}, Case{17, 5, 3, 256}, Case{100, 3, 33, 1024},
+        Case{33, 70, 16, 4096}, Case{3, 200, 150, 1024}, Case{64, 64, 5, 512}, Case{40, 40, 20, kMaxLanes}}) {
     const WorkPlan plan(c.width, c.height, c.samples, c.slots);
     std::vector<std::uint64_t> next(std::size_t{c.width} * c.height);
     std::vector<std::uint64_t> next_block(plan.tile_count());
     for (std::uint64_t i = 0; i < plan.wave_count(); ++i) {
       const WaveJob job = plan.wave(i);
-      EXPECT_LE(job.slot_count(), std::max(c.slots, 16 * kMaxLanes));
+      EXPECT_LE(job.slot_count(), std::max(c.slots, kMaxLanes));
       EXPECT_EQ(next_block[plan.tile_of(i)]++, plan.block_of(i));
       for (std::uint32_t y = job.y0; y < job.y0 + job.height; ++y) {
         for (std::uint32_t x = job.x0; x < job.x0 + job.width; ++x) {

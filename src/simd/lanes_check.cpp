@@ -74,15 +74,15 @@ void check_tails(LaneReport& report) {
   }
 }
 
-#define NORRSKEN_CHECK_LANES(lanes, scalar)                                          \
-  do {                                                                               \
-    store(out, lanes);                                                               \
-    for (int k = 0; k < kLanes; ++k) {                                               \
-      const float x = a[i + k], y = b[i + k], z = c[i + k];                          \
-      (void)x, (void)y, (void)z;                                                     \
-      const float wanted = scalar;                                                   \
-      expect(same_bits(out[k], wanted), #lanes, 0, k, out[k], wanted, report);       \
-    }                                                                                \
+#define NORRSKEN_CHECK_LANES(lanes, scalar)                                    \
+  do {                                                                         \
+    store(out, lanes);                                                         \
+    for (int k = 0; k < kLanes; ++k) {                                         \
+      const float x = a[i + k], y = b[i + k], z = c[i + k];                    \
+      (void)x, (void)y, (void)z;                                               \
+      const float wanted = scalar;                                             \
+      expect(same_bits(out[k], wanted), #lanes, 0, k, out[k], wanted, report); \
+    }                                                                          \
   } while (false)
 
 float plain_fma(float x, float y, float z) {

@@ -100,9 +100,7 @@ NORRSKEN_INLINE std::uint32_t to_bits(Mask m) {
 NORRSKEN_INLINE Mask first_lanes(std::uint32_t n) { return {hn::FirstN(FloatTag(), n)}; }
 
 NORRSKEN_INLINE Float select(Mask m, Float a, Float b) { return hn::IfThenElse(m.v, a.v, b.v); }
-NORRSKEN_INLINE UInt select(Mask m, UInt a, UInt b) {
-  return hn::IfThenElse(hn::RebindMask(UIntTag(), m.v), a.v, b.v);
-}
+NORRSKEN_INLINE UInt select(Mask m, UInt a, UInt b) { return hn::IfThenElse(hn::RebindMask(UIntTag(), m.v), a.v, b.v); }
 
 NORRSKEN_INLINE UInt lane_index() { return hn::Iota(UIntTag(), 0u); }
 /// Memory is aligned to a full register, everywhere.
@@ -177,13 +175,5 @@ NORRSKEN_INLINE Float gather(const float* base, UInt index, Mask m) {
   return hn::GatherIndex(FloatTag(), base, hn::BitCast(IntTag(), safe));
 }
 NORRSKEN_INLINE UInt gather_uint(const float* base, UInt index, Mask m) { return bits(gather(base, index, m)); }
-
-/// Adds the lanes to double sums: sums[i] += a[i] for i < n.
-NORRSKEN_INLINE void add_to_doubles(double* sums, Float a, std::uint32_t n) {
-  alignas(64) float values[kLanes];
-  hn::Store(a.v, FloatTag(), values);
-  const std::uint32_t end = n < static_cast<std::uint32_t>(kLanes) ? n : static_cast<std::uint32_t>(kLanes);
-  for (std::uint32_t i = 0; i < end; ++i) sums[i] += static_cast<double>(values[i]);
-}
 
 }  // namespace norrsken::NORRSKEN_ISA

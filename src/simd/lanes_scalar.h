@@ -113,9 +113,4 @@ NORRSKEN_INLINE UInt gather_uint(const float* base, UInt index, Mask m) {
   return m.v ? std::bit_cast<std::uint32_t>(base[index.v]) : 0u;
 }
 
-/// Adds the lanes to double sums: sums[i] += a[i] for i < n.
-NORRSKEN_INLINE void add_to_doubles(double* sums, Float a, std::uint32_t n) {
-  if (n > 0) sums[0] += static_cast<double>(a.v);
-}
-
 }  // namespace norrsken::NORRSKEN_ISA

@@ -33,8 +33,8 @@ std::vector<const LaneCheck*> usable_checks() {
 
 void expect_clean(const LaneCheck& check, const LaneReport& report) {
   EXPECT_GT(report.checks, 0u);
-  EXPECT_EQ(report.failures, 0u) << check.name << ": " << report.first << ", mask or tail " << report.pattern << ", lane "
-                                 << report.lane << ": got " << report.got << ", wanted " << report.wanted;
+  EXPECT_EQ(report.failures, 0u) << check.name << ": " << report.first << ", mask or tail " << report.pattern
+                                 << ", lane " << report.lane << ": got " << report.got << ", wanted " << report.wanted;
 }
 
 TEST(Lanes, EveryMaskPattern) {

@@ -8,12 +8,12 @@ namespace norrsken {
 
 enum class AccelKind : std::uint32_t { planes, moller_trumbore, embree };
 
-/// A plane n.p = c with |n_k| = 1 for its axis k, so that t = (c - n.o) / (n.d) takes two products for each dot product.
-/// Source: Wald, "Realtime Ray Tracing and Interactive Global Illumination", PhD thesis 2004, section 7.1.1.
+/// A plane n.p = c with |n_k| = 1 for its axis k, so that t = (c - n.o) / (n.d) takes two products for each dot
+/// product. Source: Wald, "Realtime Ray Tracing and Interactive Global Illumination", PhD thesis 2004, section 7.1.1.
 struct PlaneRecord {
-  float nu, nv;               ///< the normal's components along axes u = (k + 1) % 3 and v = (k + 2) % 3, over n_k
+  float nu, nv;  ///< the normal's components along axes u = (k + 1) % 3 and v = (k + 2) % 3, over n_k
   float c;
-  std::uint32_t back_flip;    ///< 0x80000000 if n_k > 0, else 0: turns the sign of n.d into "seen from the back"
+  std::uint32_t back_flip;  ///< 0x80000000 if n_k > 0, else 0: turns the sign of n.d into "seen from the back"
   std::uint32_t first_polygon, polygon_count;
 };
 
@@ -27,7 +27,7 @@ enum class PolygonKind : std::uint32_t { parallelogram, convex };
 struct PolygonRecord {
   PolygonKind kind;
   std::uint32_t first_row, row_count;
-  std::uint32_t primitive;    ///< the first of the triangles that it is made of
+  std::uint32_t primitive;  ///< the first of the triangles that it is made of
 };
 
 struct PolygonRow {
@@ -38,7 +38,7 @@ struct SphereRecord {
   float center[3];
   float radius;
   std::uint32_t primitive;
-  std::uint32_t back_flip;    ///< 0x80000000 if the normal points to the centre
+  std::uint32_t back_flip;  ///< 0x80000000 if the normal points to the centre
 };
 
 /// The planes of one set of polygons, in order of their axis; planes of axis k are [axis_begin[k], axis_begin[k + 1]).
@@ -58,6 +58,9 @@ struct AccelView {
   PlaneSet all, occluders, emitters;
   std::uint32_t emitter_sphere_count = 0;  ///< they come first among the spheres
   void* embree_scene = nullptr;            ///< RTCScene
+  /// Largest absolute coordinate of each triangle's corners, which bounds the rounding of tests that begin from
+  /// corners; null for planes, whose rounding does not depend on it.
+  const float* triangle_extent = nullptr;
 };
 
 }  // namespace norrsken

@@ -14,6 +14,9 @@ struct DroppedSamples {
   std::uint64_t count = 0;
 };
 
+/// In a pixel's count: a sample was left out, so the count does not tell any more which replicates hold how many.
+inline constexpr std::uint32_t kSomeDropped = 0x80000000u;
+
 /// Planes of width * height values. What the sum planes hold depends on the sampler:
 ///   independent: sums of R, G, B, then sums of their squares (6 planes);
 ///   Sobol': for each replicate r the sums of R, G, B in planes 3 r, 3 r + 1, 3 r + 2 (3 * kReplicates planes).
@@ -21,8 +24,8 @@ struct DroppedSamples {
 /// the work was cut.
 struct FilmView {
   double* sums = nullptr;
-  std::uint32_t* counts = nullptr;    ///< samples that were added, per pixel
-  float* features = nullptr;          ///< 8 planes or null: depth, normal XYZ, albedo RGB (sums), object id (first sample)
+  std::uint32_t* counts = nullptr;  ///< samples that were added, per pixel; kSomeDropped says that others were not
+  float* features = nullptr;  ///< 8 planes or null: depth, normal XYZ, albedo RGB (sums), object id (first sample)
   std::uint32_t width = 0, height = 0;
 
   std::size_t pixels() const { return static_cast<std::size_t>(width) * height; }

@@ -36,15 +36,15 @@ struct SurfaceRecord {
   float geometry[4];            ///< triangle: unit geometric normal n and n.p; sphere: centre and radius
   MaterialWord material_front;  ///< for rays that come from the side the normal points to; with kEmitsBit on lights
   MaterialWord material_back;
-  std::uint32_t light;          ///< index into `lights` of the light this is part of, or kNone
-  std::uint32_t shape;          ///< index into `shapes`
+  std::uint32_t light;  ///< index into `lights` of the light this is part of, or kNone
+  std::uint32_t shape;  ///< index into `shapes`
 };
 
 struct ShapeRecord {
   std::uint32_t first_primitive = 0;
   std::uint32_t primitive_count = 0;
-  std::uint32_t smooth = 0;       ///< 1: the triangles' vertices have shading normals
-  std::uint32_t flip_normals = 0; ///< 1 (spheres): the normal points to the centre
+  std::uint32_t smooth = 0;        ///< 1: the triangles' vertices have shading normals
+  std::uint32_t flip_normals = 0;  ///< 1 (spheres): the normal points to the centre
 };
 
 /// What next-event estimation chooses among. An area light is one record per triangle, parallelogram or sphere.
@@ -58,12 +58,12 @@ enum class LightKind : std::uint32_t {
 /// 20 floats: gathered when there are several lights, broadcast when there is one.
 struct LightRecord {
   LightKind kind;
-  float prob;         ///< probability of being chosen
-  float area;         ///< of the surface; 0 for a point
-  float alias_prob;   ///< alias method (Vose 1991): keep this record if u < alias_prob, else take `alias`
+  float prob;        ///< probability of being chosen
+  float area;        ///< of the surface; 0 for a point
+  float alias_prob;  ///< alias method (Vose 1991): keep this record if u < alias_prob, else take `alias`
   std::uint32_t alias;
-  float origin[3];    ///< first corner, centre or position
-  float edge1[3];     ///< sphere: x = radius, y = 1 for a flipped normal
+  float origin[3];  ///< first corner, centre or position
+  float edge1[3];   ///< sphere: x = radius, y = 1 for a flipped normal
   float edge2[3];
   float normal[3];    ///< unit, on the side that emits
   float emission[3];  ///< radiance (area lights) or radiant intensity (point), linear sRGB
@@ -96,20 +96,20 @@ struct SamplerSettings {
 /// All integrators are settings of one loop.
 struct IntegratorSettings {
   std::string name = "path";
-  int max_depth = -1;             ///< as in Mitsuba: 1 emitters only, 2 direct light, -1 unbounded
-  int rr_depth = 5;               ///< depth from which Russian roulette ends paths
-  int emitter_samples = 1;        ///< shadow rays per hit
-  bool diffuse_bounces = true;    ///< false (whitted): only delta scattering is followed, light sampling alone
+  int max_depth = -1;           ///< as in Mitsuba: 1 emitters only, 2 direct light, -1 unbounded
+  int rr_depth = 5;             ///< depth from which Russian roulette ends paths
+  int emitter_samples = 1;      ///< shadow rays per hit
+  bool diffuse_bounces = true;  ///< false (whitted): only delta scattering is followed, light sampling alone
   bool hide_emitters = false;
 };
 
 /// The arrays. Triangle i has corners positions[3 * triangle_vertices[3 * i + k] ...].
 struct SceneTables {
-  std::vector<float> positions;                 ///< 3 per vertex, world space
-  std::vector<float> normals;                   ///< 3 per vertex or empty if no shape is smooth
-  std::vector<float> texcoords;                 ///< 2 per vertex or empty
-  std::vector<std::uint32_t> triangle_vertices; ///< 3 per triangle
-  std::vector<SurfaceRecord> surfaces;          ///< triangles, then spheres
+  std::vector<float> positions;                  ///< 3 per vertex, world space
+  std::vector<float> normals;                    ///< 3 per vertex or empty if no shape is smooth
+  std::vector<float> texcoords;                  ///< 2 per vertex or empty
+  std::vector<std::uint32_t> triangle_vertices;  ///< 3 per triangle
+  std::vector<SurfaceRecord> surfaces;           ///< triangles, then spheres
   std::vector<ShapeRecord> shapes;
   std::vector<float> bsdf_parameters;
   std::vector<LightRecord> lights;

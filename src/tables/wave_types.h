@@ -17,15 +17,15 @@ inline constexpr std::uint32_t kMaxLanes = 16;
 /// The scene as kernels see it. Borrowed from SceneTables, AccelTables and the Embree scene.
 struct SceneView {
   const float* positions = nullptr;
-  const float* normals = nullptr;    ///< null if no shape is smooth
+  const float* normals = nullptr;  ///< null if no shape is smooth
   const std::uint32_t* triangle_vertices = nullptr;
   const SurfaceRecord* surfaces = nullptr;
   const ShapeRecord* shapes = nullptr;
   const float* bsdf_parameters = nullptr;
   const LightRecord* lights = nullptr;
   std::uint32_t triangle_count = 0, sphere_count = 0, light_count = 0;
-  std::uint32_t bsdf_kinds = 0;      ///< bit k: BsdfKind k occurs
-  std::uint32_t light_kinds = 0;     ///< bit k: LightKind k occurs
+  std::uint32_t bsdf_kinds = 0;   ///< bit k: BsdfKind k occurs
+  std::uint32_t light_kinds = 0;  ///< bit k: LightKind k occurs
   bool any_smooth = false;
   bool any_area_light = false;
   CameraRecord camera;
@@ -60,28 +60,60 @@ struct Queue {
 
 /// One worker's memory for one wave.
 struct WaveMemory {
-  Queue slots;                 ///< SlotField, one record per slot
-  Queue rays, next_rays;       ///< RayField
-  Queue hits[static_cast<std::size_t>(BsdfKind::count)];  ///< HitField, one queue per BSDF kind; [0] is not used
-  Queue light_hits;            ///< HitField
-  Queue shadow_rays;           ///< ShadowField
+  Queue slots;            ///< SlotField, one record per slot
+  Queue rays, next_rays;  ///< RayField
+  Queue hits[static_cast<std::size_t>(
+      BsdfKind::count)];  ///< HitField, one queue per BSDF kind; [0], absorb, for features alone
+  Queue light_hits;       ///< HitField
+  Queue shadow_rays;      ///< ShadowField
 };
 
 /// Fields of the records, by number. src/wave/records.h has the lane types that go in and out.
 enum SlotField : std::uint32_t {
-  kSlotRed, kSlotGreen, kSlotBlue, kSlotKey, kSlotIndex,
-  kSlotDepth, kSlotNormalX, kSlotNormalY, kSlotNormalZ, kSlotAlbedoRed, kSlotAlbedoGreen, kSlotAlbedoBlue, kSlotObject,
+  kSlotRed,
+  kSlotGreen,
+  kSlotBlue,
+  kSlotKey,
+  kSlotIndex,
+  kSlotDepth,
+  kSlotNormalX,
+  kSlotNormalY,
+  kSlotNormalZ,
+  kSlotAlbedoRed,
+  kSlotAlbedoGreen,
+  kSlotAlbedoBlue,
+  kSlotObject,
   kSlotFieldCount
 };
 enum RayField : std::uint32_t {
-  kRayOriginX, kRayOriginY, kRayOriginZ, kRayDirectionX, kRayDirectionY, kRayDirectionZ,
-  kRayThroughputRed, kRayThroughputGreen, kRayThroughputBlue, kRayPdf, kRaySlot, kRayFieldCount
+  kRayOriginX,
+  kRayOriginY,
+  kRayOriginZ,
+  kRayDirectionX,
+  kRayDirectionY,
+  kRayDirectionZ,
+  kRayThroughputRed,
+  kRayThroughputGreen,
+  kRayThroughputBlue,
+  kRayPdf,
+  kRaySlot,
+  kRayFieldCount
 };
 /// A hit is its ray and where it ended.
 enum HitField : std::uint32_t { kHitDistance = kRayFieldCount, kHitPrimitive, kHitMaterial, kHitFieldCount };
 enum ShadowField : std::uint32_t {
-  kShadowOriginX, kShadowOriginY, kShadowOriginZ, kShadowDirectionX, kShadowDirectionY, kShadowDirectionZ,
-  kShadowDistance, kShadowRed, kShadowGreen, kShadowBlue, kShadowSlot, kShadowFieldCount
+  kShadowOriginX,
+  kShadowOriginY,
+  kShadowOriginZ,
+  kShadowDirectionX,
+  kShadowDirectionY,
+  kShadowDirectionZ,
+  kShadowDistance,
+  kShadowRed,
+  kShadowGreen,
+  kShadowBlue,
+  kShadowSlot,
+  kShadowFieldCount
 };
 
 /// Counted by a wave.

@@ -39,7 +39,7 @@ inline void drop_non_finite(const WaveJob& job, const FilmView& film, const Queu
     }
     if (finite) continue;
     for (std::uint32_t channel = kSlotRed; channel <= kSlotBlue; ++channel) slots.field(channel)[slot + x] = 0.0f;
-    --film.counts[pixel + x];
+    film.counts[pixel + x] = (film.counts[pixel + x] - 1) | kSomeDropped;
     if (dropped.count < DroppedSamples::kKept) {
       dropped.pixel[dropped.count] = pixel + x;
       dropped.sample[dropped.count] = sample;

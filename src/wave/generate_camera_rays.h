@@ -35,10 +35,10 @@ inline void generate_camera_rays(const SceneView& scene, const WaveJob& job, Que
 
       // The box filter, sampled: a point of the pixel.
       const Vec2f jitter = sampler.sample_2d(key, camera_dimension::kFilm);
-      const CameraRay camera_ray =
-          sample_perspective(scene.camera, to_float(x) + jitter.x, to_float(y) + jitter.y);
+      const CameraRay camera_ray = sample_perspective(scene.camera, to_float(x) + jitter.x, to_float(y) + jitter.y);
       const Float one(1.0f);
-      push(rays, Ray{camera_ray.origin, camera_ray.direction, {one, one, one}, Float(0.0f), UInt(slot_base) + lane_index()},
+      push(rays,
+           Ray{camera_ray.origin, camera_ray.direction, {one, one, one}, Float(0.0f), UInt(slot_base) + lane_index()},
            active);
     }
   }

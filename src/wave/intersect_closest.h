@@ -20,8 +20,7 @@ inline void intersect_closest(const SceneView& scene, std::uint32_t hit_number, 
     Mask active = first_lanes(rays.count - i);
     Hit hit;
     hit.ray = load_ray(rays, i);
-    const ClosestHit closest =
-        intersect_closest_lanes(scene, from_camera, hit.ray.origin, hit.ray.direction, active);
+    const ClosestHit closest = intersect_closest_lanes(scene, from_camera, hit.ray.origin, hit.ray.direction, active);
     active &= closest.t < Float(kInfinity);
     if (from_camera) active &= closest.t <= distance_to_far_plane(scene.camera, hit.ray.direction);
     hit.t = closest.t;

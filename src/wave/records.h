@@ -10,7 +10,7 @@ namespace norrsken::NORRSKEN_ISA {
 struct Ray {
   Vec3f origin, direction;  ///< direction is a unit vector
   Vec3f throughput;
-  Float pdf_sa;             ///< density that sampled the direction; 0 if no light sampling competes with it
+  Float pdf_sa;  ///< density that sampled the direction; 0 if no light sampling competes with it
   UInt slot;
 };
 
@@ -19,7 +19,7 @@ struct Hit {
   Ray ray;
   Float t;
   UInt primitive;
-  UInt material;            ///< the word of the side that was hit
+  UInt material;  ///< the word of the side that was hit
 };
 
 /// A ray that carries `contribution` to its slot unless something is within `t_max`.

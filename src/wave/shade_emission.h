@@ -19,8 +19,7 @@ inline void shade_emission(const SceneView& scene, const Queue& light_hits, Queu
     Float weight(1.0f);
     const Mask competed = active & (hit.ray.pdf_sa > Float(0.0f));
     if (any(competed)) {
-      const Float light_pdf =
-          light_pdf_sa(scene, light, hit.ray.origin, hit.ray.direction, hit.t, competed);
+      const Float light_pdf = light_pdf_sa(scene, light, hit.ray.origin, hit.ray.direction, hit.t, competed);
       weight = select(competed, power_heuristic(Float(1.0f), hit.ray.pdf_sa, light_samples, light_pdf), weight);
     }
     add_radiance(slots, hit.ray.slot, hit.ray.throughput * emission * weight, active);

@@ -16,8 +16,8 @@ inline void shade_features(const SceneView& scene, const Queue& hits, Queue& slo
     const UInt shape = gather_uint(surface_floats(scene) + 7, record_index(hit.primitive), active);
     const Vec3f along = hit.ray.direction * hit.t;
     const Float depth = dot(along, broadcast(scene.camera.forward)) + Float(scene.camera.near_clip);
-    const Float values[] = {depth, surface.frame.n.x, surface.frame.n.y, surface.frame.n.z,
-                            albedo.x, albedo.y, albedo.z, to_float(shape + UInt(1u))};
+    const Float values[] = {depth,    surface.frame.n.x, surface.frame.n.y, surface.frame.n.z,
+                            albedo.x, albedo.y,          albedo.z,          to_float(shape + UInt(1u))};
     alignas(64) float lanes[kLanes], slot[kLanes];
     store(slot, hit.ray.slot);
     for (std::uint32_t k = 0; k < 8; ++k) {

@@ -12,9 +12,9 @@ namespace norrsken::NORRSKEN_ISA {
 
 /// What holds for all hits of one bounce.
 struct ShadeSettings {
-  std::uint32_t hit_number;   ///< 1 for the camera's hits; the random dimensions of the bounce
+  std::uint32_t hit_number;                            ///< 1 for the camera's hits; the random dimensions of the bounce
   std::uint32_t first_light_sample, end_light_sample;  ///< which of the emitter_samples per hit to take
-  bool next_rays;             ///< paths go on, if only to look for emission
+  bool next_rays;                                      ///< paths go on, if only to look for emission
   bool roulette;
 };
 
@@ -33,7 +33,8 @@ NORRSKEN_INLINE void sample_lights(const SceneView& scene, const ShadeSettings& 
   const bool choose = scene.light_count > 1, mis = scene.integrator.diffuse_bounces;
   for (std::uint32_t i = settings.first_light_sample; i < settings.end_light_sample; ++i) {
     const SampleKey k = sampler.repetition(key, i, n);
-    const Float pick = choose ? sampler.sample_1d(k, dimension + hit_dimension::kLight) : Float(0.0f);
+    Vec2f pick{Float(0.0f), Float(0.0f)};
+    if (choose) pick = sampler.sample_2d(k, dimension + hit_dimension::kLight);
     const Vec2f u = sampler.sample_2d(k, dimension + hit_dimension::kLightPosition);
     const LightChoice light = sample_one_light(scene, surface.position, pick, u, active);
 
@@ -48,7 +49,8 @@ NORRSKEN_INLINE void sample_lights(const SceneView& scene, const ShadeSettings& 
     const Float light_pdf = light.prob * light.sample.pdf_sa;
     Float weight = Float(1.0f) / (light_pdf * Float(static_cast<float>(n)));
     if (mis) {
-      const Float competing = power_heuristic(Float(static_cast<float>(n)), light_pdf, Float(1.0f), Model::pdf_sa(bsdf, wo, wi));
+      const Float competing =
+          power_heuristic(Float(static_cast<float>(n)), light_pdf, Float(1.0f), Model::pdf_sa(bsdf, wo, wi));
       weight = weight * select(light.delta, Float(1.0f), competing);
     }
     const Vec3f contribution = hit.ray.throughput * f * light.sample.radiance * weight;
@@ -74,8 +76,7 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
     throughput = throughput * (Float(1.0f) / survive);
   }
   const Vec3f direction = surface.frame.to_world(sample.wi);
-  const Vec3f origin =
-      spawn_origin(surface.position, surface.normal, surface.offset, dot(direction, surface.normal));
+  const Vec3f origin = spawn_origin(surface.position, surface.normal, surface.offset, dot(direction, surface.normal));
   // Light sampling competes with a direction unless it is a delta or nothing can be sampled.
   const Float pdf = scene.light_count > 0 ? sample.pdf_sa : Float(0.0f);
   if (any(active)) push(next_rays, Ray{origin, direction, throughput, pdf, hit.ray.slot}, active);
@@ -83,9 +84,8 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
 
 /// Hits [begin, end) of the queue; begin is a multiple of kLanes. `shadow_rays` has room for all of them.
 template <class Model>
-inline void shade_surface(const SceneView& scene, const ShadeSettings& settings, const Queue& hits,
-                          std::uint32_t begin, std::uint32_t end, const Queue& slots, Queue& shadow_rays,
-                          Queue& next_rays) {
+inline void shade_surface(const SceneView& scene, const ShadeSettings& settings, const Queue& hits, std::uint32_t begin,
+                          std::uint32_t end, const Queue& slots, Queue& shadow_rays, Queue& next_rays) {
   const Sampler sampler{scene.sampler.kind};
   const bool light_sampling = !Model::kDelta && scene.light_count > 0;
   const bool go_on = settings.next_rays && (Model::kDelta || scene.integrator.diffuse_bounces);
@@ -96,7 +96,8 @@ inline void shade_surface(const SceneView& scene, const ShadeSettings& settings,
     const auto bsdf = Model::load(scene.bsdf_parameters, hit.material & UInt(kMaterialOffsetMask), active);
     const Vec3f wo = surface.frame.to_local(-hit.ray.direction);
     const SampleKey key = load_sample_key(slots, hit.ray.slot, active);
-    if (light_sampling) sample_lights<Model>(scene, settings, sampler, key, hit, surface, bsdf, wo, shadow_rays, active);
+    if (light_sampling)
+      sample_lights<Model>(scene, settings, sampler, key, hit, surface, bsdf, wo, shadow_rays, active);
     if (go_on) sample_next_ray<Model>(scene, settings, sampler, key, hit, surface, bsdf, wo, next_rays, active);
   }
 }

@@ -10,9 +10,9 @@ namespace norrsken::NORRSKEN_ISA {
 /// A surface point as shading sees it. Normals point to the side that the ray came from.
 struct SurfacePoint {
   Vec3f position;
-  Vec3f normal;   ///< geometric
-  Frame frame;    ///< around the shading normal
-  Float offset;   ///< bound of how far rounding may have moved the position off the surface, with reserve
+  Vec3f normal;  ///< geometric
+  Frame frame;   ///< around the shading normal
+  Float offset;  ///< bound of how far rounding may have moved the position off the surface, with reserve
   UInt shape;
 };
 
@@ -21,12 +21,6 @@ NORRSKEN_INLINE UInt record_index(UInt primitive) { return primitive * UInt(size
 NORRSKEN_INLINE const float* surface_floats(const SceneView& scene) {
   return reinterpret_cast<const float*>(scene.surfaces);
 }
-
-/// Rounding in the position, the stored plane and the next intersection is a few ulps of the largest coordinate that
-/// takes part; 64 of them leave room for the triangle tests of every intersector.
-inline constexpr float kOffsetUlps = 64.0f * 0x1p-24f;
-
-NORRSKEN_INLINE Float largest(const Vec3f& p) { return max(abs(p.x), max(abs(p.y), abs(p.z))); }
 
 /// Interpolated shading normal of smooth triangles, barycentric coordinates recomputed from the position.
 inline Vec3f smooth_normal(const SceneView& scene, UInt primitive, const Vec3f& p, Mask active) {
@@ -58,8 +52,12 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
   s.normal = geometry;
   s.position = fma(geometry, fourth - dot(geometry, along), along);
   Float scale = largest(s.position);
+  const Mask sphere = active & !(to_float(hit.primitive) < Float(static_cast<float>(scene.triangle_count)));
+  if (scene.accel.triangle_extent != nullptr) {
+    const Mask triangle = active & !sphere;
+    scale = max(scale, zero_unless(triangle, gather(scene.accel.triangle_extent, hit.primitive, triangle)));
+  }
   if (scene.sphere_count > 0) {
-    const Mask sphere = active & !(to_float(hit.primitive) < Float(static_cast<float>(scene.triangle_count)));
     if (any(sphere)) {
       const Vec3f n = normalize(along - geometry);
       s.normal = select(sphere, n, s.normal);
