@@ -35,7 +35,53 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
+/// Of a mistyped or misplaced option the name as it is declared: "--spp" of "--spp=4", "-D" of "-Dlight=point".
+std::string declared_name(const std::string& option) {
+  return option.starts_with("--") ? option.substr(0, option.find('=')) : option.substr(0, 2);
+}
+
+std::vector<const CLI::App*> commands(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// An argument that stands before the command, or where there is no command.
+std::string describe_stray_argument(const CLI::App& app, const std::string& argument) {
+  if (!argument.starts_with('-')) return fmt::format("unexpected argument '{}'", argument);
+  const auto chosen = app.get_subcommands();
+  const std::string option = declared_name(argument);
+  const auto has_option = [&](const CLI::App* command) {
+    const auto names = option_names(*command);
+    return std::find(names.begin(), names.end(), option) != names.end();
+  };
+  const auto candidates = chosen.empty() ? commands(app) : std::vector<const CLI::App*>(chosen.begin(), chosen.end());
+  if (std::any_of(candidates.begin(), candidates.end(), has_option))
+    return fmt::format("'{0}' belongs after the command: norrsken {1} {0}", option,
+                       chosen.empty() ? "COMMAND" : chosen.front()->get_name());
+  const std::string name = argument.substr(0, argument.find('='));
+  return fmt::format("unknown option '{}'{}", name, did_you_mean(name, option_names(app)));
+}
+
+/// Of an option the value's name is told; that it is required or may be repeated is said in words.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() {
+    label("Positionals", "Arguments");
+    label("SUBCOMMAND", "COMMAND");
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    return option->get_type_size() == 0 || option->get_type_name().empty() ? "" : " " + option->get_type_name();
+  }
+};
+
 }  // namespace
+
+std::shared_ptr<CLI::Formatter> help_formatter() { return std::make_shared<HelpFormatter>(); }
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : commands(app)) names.push_back(command->get_name());
+  return names;
+}
 
 std::string unknown_word(std::string_view what, std::string_view word, const std::vector<std::string>& accepted) {
   const std::string hint = did_you_mean(word, accepted);
@@ -127,6 +173,9 @@ void SceneArguments::add_to(CLI::App& command) {
   command.add_option("--size", size, "Image size in pixels in place of the scene's")
       ->check(image_size())
       ->type_name("WxH");
+  command.add_option("--spp", spp, "Samples per pixel in place of the scene's; sets $spp too, unless -D does")
+      ->check(whole_number(1, std::numeric_limits<int>::max()))
+      ->type_name("N");
 }
 
 LoadOptions SceneArguments::load_options() const {
@@ -135,12 +184,13 @@ LoadOptions SceneArguments::load_options() const {
   if (!integrator.empty()) options.integrator = integrator;
   if (!sampler.empty()) options.sampler = sampler;
   if (!size.empty()) std::tie(options.width, options.height) = parse_size(size);
+  if (spp > 0) options.samples_per_pixel = spp;
   return options;
 }
 
 void MachineArguments::add_to(CLI::App& command, bool with_accelerator) {
   command.add_option("--threads", threads, "Worker threads; 0 (default): one per hardware thread")
-      ->check(whole_number(0, 4096))
+      ->check(whole_number(0, kMaxThreads))
       ->type_name("N");
   command.add_option("--isa", isa, "Instruction set: auto (default), avx512, avx2, sse4.2, scalar")->type_name("NAME");
   if (!with_accelerator) return;
@@ -174,8 +224,14 @@ std::string describe_usage_error(const CLI::App& app, const CLI::ParseError& err
     const std::string text = error.what();
     return fmt::format("option '{}' needs a value", text.substr(0, text.find(':')));
   }
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
+  const bool is_required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  const bool is_extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  const auto stray = app.remaining(false);
+  if ((is_required || is_extra) && !stray.empty()) return describe_stray_argument(app, stray.front());
   const auto chosen = app.get_subcommands();
+  if (is_required && chosen.empty())
+    return fmt::format("a command is required; accepted: {}", fmt::join(command_names(app), ", "));
+  if (!is_extra) return error.what();
   const CLI::App& command = chosen.empty() ? app : *chosen.front();
   const auto extras = app.remaining(true);
   if (extras.empty()) return error.what();

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,10 +34,11 @@ CLI::Validator one_of(std::vector<std::string> words);
 CLI::Validator image_size();
 CLI::Validator definition();
 
-/// The scene and what may be said over its head: SCENE, -D, --integrator, --sampler, --size.
+/// The scene and what may be said over its head: SCENE, -D, --integrator, --sampler, --size, --spp.
 struct SceneArguments {
   std::string scene, integrator, sampler, size;
   std::vector<std::string> definitions;
+  int spp = 0;  ///< 0: the scene's
 
   void add_to(CLI::App& command);
   LoadOptions load_options() const;
@@ -59,6 +61,12 @@ struct ToneArguments {
   void add_to(CLI::App& command);
   ToneMapping tone_mapping() const;
 };
+
+/// Help in words of this program in place of CLI11's own.
+std::shared_ptr<CLI::Formatter> help_formatter();
+
+/// Names of the commands, in order.
+std::vector<std::string> command_names(const CLI::App& app);
 
 /// What is wrong with the command line, as one sentence with a suggestion where there is one.
 std::string describe_usage_error(const CLI::App& app, const CLI::ParseError& error);

@@ -1,6 +1,5 @@
 // norrsken bench: how fast a scene renders, as one line of JSON.
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
@@ -14,7 +13,7 @@ namespace {
 struct Arguments {
   SceneArguments scene;
   MachineArguments machine;
-  int spp = 0, repeat = 5;
+  int repeat = 5;
 };
 
 nlohmann::ordered_json spread(std::vector<double> values) {
@@ -37,7 +36,6 @@ ExitStatus bench(const Arguments& arguments) {
   const SceneInfo info = scene.info();
   RenderOptions options;
   arguments.machine.apply_to(options);
-  if (arguments.spp > 0) options.samples_per_pixel = arguments.spp;
 
   // The first run is not counted: it pays for page faults and the processor's change of clock.
   RenderStatistics statistics = render_once(scene, options);
@@ -52,7 +50,7 @@ ExitStatus bench(const Arguments& arguments) {
   print_json({{"scene", arguments.scene.scene},
               {"width", info.width},
               {"height", info.height},
-              {"samples_per_pixel", arguments.spp > 0 ? arguments.spp : info.samples_per_pixel},
+              {"samples_per_pixel", info.samples_per_pixel},
               {"integrator", info.integrator},
               {"sampler", info.sampler},
               {"max_depth", info.max_depth},
@@ -77,9 +75,6 @@ void add_bench_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("bench", "Measure how fast a scene renders");
   auto arguments = std::make_shared<Arguments>();
   arguments->scene.add_to(*command);
-  command->add_option("--spp", arguments->spp, "Samples per pixel in place of the scene's")
-      ->check(whole_number(1, std::numeric_limits<int>::max()))
-      ->type_name("N");
   command->add_option("--repeat", arguments->repeat, "Measured runs, after one that is not counted; default 5")
       ->check(whole_number(1, 1000))
       ->type_name("N");
@@ -90,6 +85,7 @@ void add_bench_command(CLI::App& app, Action& action) {
       "Examples:\n"
       "  norrsken bench hexagon_room -Dshadow_rays=1 --sampler independent --spp 64\n"
       "  norrsken bench hexagon_room --isa avx2 --threads 1 --repeat 9");
+  command->group("Commands");
   command->callback([&action, arguments] { action = [arguments] { return bench(*arguments); }; });
 }
 

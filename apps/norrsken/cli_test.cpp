@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -71,6 +72,7 @@ TEST_F(Cli, HelpAndVersionGoToStdout) {
     const ProcessResult help = run({command, "--help"});
     EXPECT_EQ(help.status, 0) << command;
     EXPECT_THAT(help.out, AllOf(HasSubstr("Example"), HasSubstr(std::string("norrsken ") + command)));
+    EXPECT_THAT(help.out, AllOf(Not(HasSubstr("REQUIRED")), Not(HasSubstr("Excludes")), Not(HasSubstr("..."))));
     EXPECT_THAT(help.err, IsEmpty());
   }
   const ProcessResult version = run({"--version"});
@@ -96,6 +98,12 @@ TEST_F(Cli, WrongCommandLinesAre64AndLeaveNothing) {
   expect_usage({"render", "hexagon_room", "--isa", "mmx"}, "accepted: auto");
   expect_usage({"render", "hexagon_room", "--integrator", "pth"}, "did you mean 'path'?");
   expect_usage({"render", "hexagon_room", "--quiet", "--json"}, "excludes");
+  expect_usage({"render", "hexagon_room", "--threads", "1025"}, "a whole number from 0 to 1024");
+  expect_usage({"render", "hexagon_room", "-o", "a.bmp"}, "a.bmp");
+  expect_usage({"--json", "info", "hexagon_room"}, "'--json' belongs after the command: norrsken info --json\n");
+  expect_usage({"-Dspp=4", "render", "hexagon_room"}, "'-D' belongs after the command: norrsken render -D\n");
+  expect_usage({"--json"}, "'--json' belongs after the command: norrsken COMMAND --json\n");
+  expect_usage({"-V"}, "unknown option '-V'\n");
   EXPECT_THAT(files(), IsEmpty());
 }
 
@@ -112,12 +120,36 @@ TEST_F(Cli, WrongScenesAre65AndMissingOnes66) {
 }
 
 TEST_F(Cli, OutputsAreCheckedBeforeRendering) {
-  for (const char* path : {"no/such/folder/a.png", "a.bmp"}) {
-    const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "-o", path} + kEndless);
-    EXPECT_EQ(result.status, 73);
-    EXPECT_THAT(result.err, HasSubstr(path));
-  }
+  const ProcessResult result =
+      run(std::vector<std::string>{"render", "hexagon_room", "-o", "no/folder/a.png", "-o", "none/b.exr"} + kEndless);
+  EXPECT_EQ(result.status, 73);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("no/folder/a.png"), HasSubstr("none/b.exr")));
   EXPECT_THAT(files(), IsEmpty());
+}
+
+TEST_F(Cli, EverythingWrongIsToldAtOnce) {
+  write("bad.xml", "<scene version=\"3.0.0\"><bsdf type=\"difuse\"/></scene>\n");
+  const ProcessResult result = run({"render", "bad.xml", "-o", "none/a.exr", "-o", "b.bmp"});
+  EXPECT_EQ(result.status, 64);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("none/a.exr"), HasSubstr("b.bmp"), HasSubstr("difuse")));
+}
+
+TEST_F(Cli, PipesAreNotInputsAndNobodyWaitsForThem) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe.xml").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo((folder_ / "pipe.exr").c_str(), 0600), 0);
+  EXPECT_EQ(run({"info", "pipe.xml"}).status, 66);
+  EXPECT_EQ(run({"compare", "pipe.exr", "pipe.exr"}).status, 66);
+}
+
+TEST_F(Cli, OneLostOutputDoesNotCostTheOthers) {
+  const std::vector<std::string> lost = {"render",          "hexagon_room", "--size", "65536x1", "--spp", "1",
+                                         "-Dshadow_rays=1", "-o",           "a.jpg",  "-o",      "b.exr", "-o",
+                                         "./b.exr"};
+  const ProcessResult result = run(lost);  // JPEG takes 65535 pixels along a side
+  EXPECT_EQ(result.status, 74);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("a.jpg"), HasSubstr("wrote b.exr\n")));
+  EXPECT_THAT(files(), testing::ElementsAre("b.exr"));
+  EXPECT_EQ(parse_lines(run(lost + std::vector<std::string>{"--json"}).out).back()["files"], json::array({"b.exr"}));
 }
 
 TEST_F(Cli, RendersEveryOutputAndTheDefaultOne) {
@@ -170,11 +202,12 @@ TEST_F(Cli, JsonTellsStartProgressDone) {
 }
 
 TEST_F(Cli, InterruptSavesAndSays) {
-  for (const int signal_number : {SIGINT, SIGTERM}) {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
     const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "-o", "part.exr"} + kEndless,
                                      {.signals = {signal_number}});
     EXPECT_EQ(result.status, 77) << result.err;
-    EXPECT_THAT(result.err, AllOf(HasSubstr("wrote part.exr"), HasSubstr("of 1000000 samples per pixel")));
+    EXPECT_THAT(result.err, AllOf(HasSubstr("stopping; writing what there is (Ctrl-C again discards it)\n"),
+                                  HasSubstr("wrote part.exr"), HasSubstr("of 1000000 samples per pixel")));
     Image image;
     ASSERT_TRUE(read_image((folder_ / "part.exr").string(), image));
     double sum = 0;
@@ -219,6 +252,25 @@ TEST_F(Cli, LostOutputIs74) {
   const ProcessResult result = run({"scenes"}, {.stdout_file = "/dev/full"});
   EXPECT_EQ(result.status, 74);
   EXPECT_THAT(result.err, HasSubstr("standard output"));
+  // The image survives a reader of the progress that does not.
+  const std::vector<std::string> render = {"render", "hexagon_room", "--json"};
+  EXPECT_EQ(run(render + kShort, {.stdout_file = "/dev/full"}).status, 74);
+  EXPECT_THAT(files(), testing::ElementsAre("hexagon_room.exr"));
+}
+
+TEST_F(Cli, SamplesPerPixelReplaceTheScenes) {
+  const auto info = [this](const std::vector<std::string>& more) {
+    return parse_lines(run(std::vector<std::string>{"info", "hexagon_room", "--json"} + more).out).at(0);
+  };
+  const json both = info({"--spp", "5"});
+  EXPECT_EQ(both["samples_per_pixel"], 5);
+  EXPECT_EQ(both["emitter_samples"], 5);  // $shadow_rays follows $spp
+  EXPECT_FALSE(both.contains("accelerator"));
+  const json apart = info({"--spp", "5", "-Dspp=7"});
+  EXPECT_EQ(apart["samples_per_pixel"], 5);
+  EXPECT_EQ(apart["emitter_samples"], 7);
+  EXPECT_THAT(run({"info", "hexagon_room", "--spp", "1"}).out,
+              AllOf(HasSubstr("1 sample per pixel"), HasSubstr("1 shadow ray per hit"), HasSubstr("1 sphere,")));
 }
 
 TEST_F(Cli, InfoAndScenesTellTheRoom) {
@@ -244,9 +296,19 @@ TEST_F(Cli, CompareTellsDistancesAndWritesTheDifference) {
   EXPECT_FALSE(other["z_test"].is_null());
   EXPECT_TRUE(fs::exists(folder_ / "d.png"));
   EXPECT_THAT(run({"compare", "b.exr", "b.exr"}).out, HasSubstr("z-test  none"));
-  EXPECT_EQ(run({"compare", "a.exr", "missing.exr"}).status, 66);
-  write("not.exr", "no image");
+  const ProcessResult missing = run({"compare", "missing.exr", "none.exr"});
+  EXPECT_EQ(missing.status, 66);
+  EXPECT_THAT(missing.err, AllOf(HasSubstr("missing.exr"), HasSubstr("none.exr")));
+  write("not.exr", "");
   EXPECT_EQ(run({"compare", "a.exr", "not.exr"}).status, 65);
+  const std::string before = read("a.exr");
+  EXPECT_EQ(run({"compare", "a.exr", "b.exr", "-o", "./a.exr"}).status, 64);
+  EXPECT_EQ(read("a.exr"), before);
+  const std::vector<std::string> small = {"render", "hexagon_room", "-o", "s.exr", "-Dshadow_rays=1", "--spp", "1"};
+  ASSERT_EQ(run(small + std::vector<std::string>{"--size", "8x6"}).status, 0);
+  const ProcessResult sizes = run({"compare", "a.exr", "s.exr"});
+  EXPECT_EQ(sizes.status, 65);
+  EXPECT_THAT(sizes.err, HasSubstr("the images differ in size: a.exr is 40x30, s.exr 8x6"));
 }
 
 TEST_F(Cli, BenchPrintsOneLineOfJson) {
@@ -268,7 +330,7 @@ TEST_F(Cli, FiguresNeedsAFolderItCanMakeAndSavesNoPageWhenInterrupted) {
   EXPECT_EQ(run({"figures", "-o", "file/below"}).status, 73);
   const ProcessResult result = run({"figures", "-o", "out", "--quick"}, {.signals = {SIGINT}});
   EXPECT_EQ(result.status, 77) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("index.html was not written"));
+  EXPECT_THAT(result.err, AllOf(HasSubstr("index.html was not written"), Not(HasSubstr("error:"))));
   EXPECT_FALSE(fs::exists(folder_ / "out/index.html"));
 }
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
@@ -19,13 +19,24 @@ struct Arguments {
   bool json = false;
 };
 
-Image read_image_or_fail(const std::string& path) {
-  Image image;
+/// Complaints about one image after the other are printed; the first one's status stays.
+void read_image_or_tell(const std::string& path, Image& image, ExitStatus& result) {
   const IoStatus status = read_image(path, image);
-  if (status) return image;
-  std::ifstream file(path);
-  file.peek();
-  throw Failure(file.good() ? ExitStatus::data_error : ExitStatus::no_input, status.error);
+  if (status) return;
+  print_error(status.error);
+  if (result == ExitStatus::done) result = unreadable_input_status(path);
+}
+
+ExitStatus check_output(const Arguments& arguments) {
+  if (arguments.output.empty()) return ExitStatus::done;
+  for (const std::string& input : {arguments.a, arguments.b}) {
+    std::error_code error;  // that one does not exist: then they differ
+    if (!std::filesystem::equivalent(arguments.output, input, error)) continue;
+    print_error(
+        fmt::format("the difference cannot be written to '{}': it is one of the images to compare", arguments.output));
+    return ExitStatus::usage;
+  }
+  return check_outputs({arguments.output});
 }
 
 void print_as_json(const Arguments& arguments, const Comparison& comparison) {
@@ -56,14 +67,22 @@ void print_as_text(const Comparison& comparison) {
 
 ExitStatus compare_images(const Arguments& arguments) {
   const bool wants_difference = !arguments.output.empty();
-  if (wants_difference) require_writable(arguments.output);
-  const Image a = read_image_or_fail(arguments.a), b = read_image_or_fail(arguments.b);
+  ExitStatus wrong = check_output(arguments);
+  Image a, b;
+  read_image_or_tell(arguments.a, a, wrong);
+  read_image_or_tell(arguments.b, b, wrong);
+  if (wrong != ExitStatus::done) return wrong;
+  if (a.width != b.width || a.height != b.height)
+    throw Failure(ExitStatus::data_error, fmt::format("the images differ in size: {} is {}x{}, {} {}x{}", arguments.a,
+                                                      a.width, a.height, arguments.b, b.width, b.height));
   Comparison comparison;
   CompareOptions options;
   options.tone = arguments.tone.tone_mapping();
   Image difference;
   const IoStatus status = compare(a, b, options, comparison, wants_difference ? &difference : nullptr);
-  if (!status) throw Failure(ExitStatus::data_error, status.error);
+  if (!status)
+    throw Failure(ExitStatus::data_error,
+                  fmt::format("cannot compare '{}' with '{}': {}", arguments.a, arguments.b, status.error));
   if (wants_difference) write_image_or_fail(arguments.output, difference, options.tone);
   arguments.json ? print_as_json(arguments, comparison) : print_as_text(comparison);
   return ExitStatus::done;
@@ -86,6 +105,7 @@ void add_compare_command(CLI::App& app, Action& action) {
       "Examples:\n"
       "  norrsken compare room.exr reference.exr\n"
       "  norrsken compare room.exr reference.exr -o difference.png --exposure 2");
+  command->group("Commands");
   command->callback([&action, arguments] { action = [arguments] { return compare_images(*arguments); }; });
 }
 

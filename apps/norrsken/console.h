@@ -21,6 +21,11 @@ class Failure : public std::runtime_error {
   ExitStatus status_;
 };
 
+/// Before anything is opened or printed: a reader that has left and a file that may not grow become errors of writing
+/// in place of signals, and what was closed by the caller is opened as something that refuses, so that no image takes
+/// the place of the standard output.
+void prepare_standard_files();
+
 /// Whether stderr is a terminal on which a line can be rewritten (not `TERM=dumb`).
 bool stderr_is_terminal();
 /// Columns of the terminal behind stderr; 80 if it does not say.

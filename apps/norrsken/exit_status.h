@@ -11,7 +11,7 @@ enum class ExitStatus : int {
   internal = 70,       ///< a fault of the program
   cannot_create = 73,  ///< an output cannot be created, found before any work was done
   io_error = 74,       ///< writing failed
-  interrupted = 77,    ///< stopped by a signal, after saving what there was
+  interrupted = 77,    ///< stopped by a signal, after saving what there is
 };
 
 }  // namespace norrsken::cli

@@ -70,6 +70,9 @@ std::string processor_name() {
   return "";
 }
 
+/// The sampler's name as an adjective: "Sobol'" of "sobol".
+std::string sampler_word(const std::string& sampler) { return sampler == "sobol" ? "Sobol'" : sampler; }
+
 /// What comparing with a perfect image would give, from the variance layers of the image itself.
 Comparison estimated_error(const Image& image) {
   Comparison result;
@@ -159,7 +162,7 @@ class Workshop {
     std::vector<SppError> measured;
     const auto render_and_measure = [&](int spp) {
       FigureResult result = {.name = "One shadow ray per hit",
-                             .caption = fmt::format("{} sample{} per pixel", spp, spp == 1 ? "" : "s"),
+                             .caption = format_plural(spp, "sample") + " per pixel",
                              .stem = "",
                              .light = last.light,
                              .integrator = last.integrator,
@@ -203,22 +206,27 @@ class Workshop {
     result.statistics = rendering->run([this](const RenderProgress& progress) { meter_.update(progress); });
     meter_.finish();
     if (result.statistics.cancelled)
-      throw Failure(ExitStatus::interrupted,
-                    fmt::format("interrupted in '{}': what was finished before is in '{}', index.html was not written",
-                                result.name, arguments_.folder));
+      throw Failure(
+          ExitStatus::interrupted,
+          arguments_.quiet
+              ? ""
+              : fmt::format("interrupted in '{}': what was finished before is in '{}', index.html was not written",
+                            result.name, arguments_.folder));
     return rendering->image(layers);
   }
 
   void write(const std::string& stem, const Image& image) const {
+    const SavingGuard guard;
     for (const char* extension : {".exr", ".png"})
       write_image_or_fail((fs::path(arguments_.folder) / (stem + extension)).string(), image, ToneMapping{});
   }
 
   void tell(const FigureResult& result) const {
     if (arguments_.quiet) return;
-    print_note(fmt::format("{}: {} x {} samples, {} shadow ray{}; {}, {}rays, {} Msamples/s, error {}", result.name,
-                           result.spp, result.sampler, result.shadow_rays, result.shadow_rays == 1 ? "" : "s",
-                           format_duration(result.statistics.seconds), format_count(static_cast<double>(result.rays())),
+    print_note(fmt::format("{}: {} per pixel, {} per hit; {}, {}rays, {} Msamples/s, error {}", result.name,
+                           format_plural(result.spp, sampler_word(result.sampler) + " sample"),
+                           format_plural(result.shadow_rays, "shadow ray"), format_duration(result.statistics.seconds),
+                           format_count(static_cast<double>(result.rays())),
                            format_digits(result.samples_per_second() / 1e6), format_percent(result.relative_error())));
   }
 
@@ -247,7 +255,9 @@ ExitStatus figures(const Arguments& arguments) {
   if (error)
     throw Failure(ExitStatus::cannot_create,
                   fmt::format("cannot create the folder '{}': {}", arguments.folder, error.message()));
-  require_writable((fs::path(arguments.folder) / "figure_05.png").string());
+  if (const ExitStatus status = check_outputs({(fs::path(arguments.folder) / "figure_05.png").string()});
+      status != ExitStatus::done)
+    return status;
 
   const FiguresReport report = Workshop(arguments).run();
   const fs::path page = fs::path(arguments.folder) / "index.html";
@@ -278,6 +288,7 @@ void add_figures_command(CLI::App& app, Action& action) {
       "Examples:\n"
       "  norrsken figures -o figures\n"
       "  norrsken figures -o /tmp/quick --quick --isa avx2");
+  command->group("Commands");
   command->callback([&action, arguments] {
     arguments->command = fmt::format("norrsken figures -o {}{}", arguments->folder, arguments->quick ? " --quick" : "");
     if (arguments->sampler != "independent") arguments->command += " --sampler " + arguments->sampler;

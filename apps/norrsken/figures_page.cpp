@@ -57,10 +57,6 @@ svg .marker.literal { fill: var(--literal); }
 svg .marker.one-ray { fill: var(--one-ray); }
 )";
 
-std::string plural(int count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::string count_of_rays(const FigureResult& result) { return format_count(static_cast<double>(result.rays())); }
 
 std::string msamples_per_second(const FigureResult& result) { return format_digits(result.samples_per_second() / 1e6); }
@@ -77,9 +73,9 @@ std::string figure_card(const FigureResult& result, int width) {
       "<strong>{}</strong> {}\n<dl>\n",
       width < 400 ? " class=\"small-image\"" : "", file, file, width, width, escape_html(result.name),
       escape_html(result.caption), escape_html(result.name), escape_html(result.caption));
-  html += row("Settings",
-              fmt::format("{} light, {}, {}, {}, {}", result.light, result.integrator, plural(result.spp, "sample"),
-                          plural(result.shadow_rays, "shadow ray"), result.sampler));
+  html += row("Settings", fmt::format("{} light, {}, {}, {}, {}", result.light, result.integrator,
+                                      format_plural(result.spp, "sample"),
+                                      format_plural(result.shadow_rays, "shadow ray"), result.sampler));
   html += row("Time", format_duration(result.statistics.seconds));
   html += row("Rays", count_of_rays(result));
   html += row("Speed", msamples_per_second(result) + " Msamples/s");
@@ -145,9 +141,10 @@ std::string equal_error_section(const FiguresReport& report) {
       "hit, {5} per pixel come to {6} in <strong>{7}</strong>: {8} samples, <strong>{9:.3g} times as "
       "fast</strong>. More shadow rays smooth the direct light only: the noise of indirect light and of "
       "what the sphere reflects needs more samples.</p>\n",
-      escape_html(last.name), format_duration(last.statistics.seconds), plural(last.spp, "sample"),
-      plural(last.shadow_rays, "shadow ray"), format_percent(last.relative_error()), plural(equal.spp, "sample"),
-      format_percent(equal.relative_error()), format_duration(equal.statistics.seconds),
+      escape_html(last.name), format_duration(last.statistics.seconds), format_plural(last.spp, "sample"),
+      format_plural(last.shadow_rays, "shadow ray"), format_percent(last.relative_error()),
+      format_plural(equal.spp, "sample"), format_percent(equal.relative_error()),
+      format_duration(equal.statistics.seconds),
       equal.spp == last.spp ? "as many"
                             : fmt::format("{:.3g} times as many", static_cast<double>(equal.spp) / last.spp),
       last.statistics.seconds / equal.statistics.seconds);
@@ -180,10 +177,10 @@ std::string figures_page(const FiguresReport& report) {
       "own settings: {} × {} pixels, 3 bounces, {} sampling, as many shadow rays at every hit as samples per pixel "
       "unless said otherwise. The report's renderer took from a minute for figure 9 to 7 hours for figure 13.</p>\n",
       report.width, report.height, escape_html(report.figures.front().sampler));
-  html +=
-      fmt::format("<p class=\"soft\">Measured on {}{}, {} instructions with {}, {} intersector.</p>\n",
-                  report.machine.empty() ? "" : escape_html(report.machine) + ", ", plural(machine.threads, "thread"),
-                  escape_html(machine.isa), plural(machine.lanes, "lane"), escape_html(machine.accelerator));
+  html += fmt::format("<p class=\"soft\">Measured on {}{}, {} instructions with {}, {} intersector.</p>\n",
+                      report.machine.empty() ? "" : escape_html(report.machine) + ", ",
+                      format_plural(machine.threads, "thread"), escape_html(machine.isa),
+                      format_plural(machine.lanes, "lane"), escape_html(machine.accelerator));
   html += "<h2>The figures</h2>\n<div class=\"grid-of-figures\">\n";
   for (const FigureResult& figure : report.figures) html += figure_card(figure, report.width);
   html += "</div>\n";

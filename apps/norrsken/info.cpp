@@ -23,24 +23,25 @@ void print_as_json(const std::string& scene, const SceneInfo& info) {
     items.push_back({{"kind", item.kind}, {"plugin", item.plugin}, {"id", item.id}, {"detail", item.detail}});
   auto parameters = nlohmann::ordered_json::object();
   for (const auto& [name, value] : info.parameters) parameters[name] = value;
-  print_json({{"scene", scene},
-              {"width", info.width},
-              {"height", info.height},
-              {"samples_per_pixel", info.samples_per_pixel},
-              {"sampler", info.sampler},
-              {"integrator", info.integrator},
-              {"max_depth", info.max_depth},
-              {"rr_depth", info.rr_depth},
-              {"emitter_samples", info.emitter_samples},
-              {"triangles", info.triangles},
-              {"spheres", info.spheres},
-              {"lights", info.lights},
-              {"bounds_min", info.bounds_min},
-              {"bounds_max", info.bounds_max},
-              {"accelerator", info.accelerator},
-              {"table_bytes", info.table_bytes},
-              {"parameters", parameters},
-              {"items", items}});
+  nlohmann::ordered_json object = {{"scene", scene},
+                                   {"width", info.width},
+                                   {"height", info.height},
+                                   {"samples_per_pixel", info.samples_per_pixel},
+                                   {"sampler", info.sampler},
+                                   {"integrator", info.integrator},
+                                   {"max_depth", info.max_depth},
+                                   {"rr_depth", info.rr_depth},
+                                   {"emitter_samples", info.emitter_samples},
+                                   {"triangles", info.triangles},
+                                   {"spheres", info.spheres},
+                                   {"lights", info.lights},
+                                   {"bounds_min", info.bounds_min},
+                                   {"bounds_max", info.bounds_max},
+                                   {"table_bytes", info.table_bytes},
+                                   {"parameters", parameters},
+                                   {"items", items}};
+  if (!info.accelerator.empty()) object["accelerator"] = info.accelerator;
+  print_json(object);
 }
 
 void print_as_text(const std::string& scene, const SceneInfo& info) {
@@ -48,12 +49,13 @@ void print_as_text(const std::string& scene, const SceneInfo& info) {
     print_line(fmt::format("  {:<12}{}", name, value));
   };
   print_line(scene);
-  row("image", fmt::format("{} x {} pixels, {} samples per pixel ({})", info.width, info.height, info.samples_per_pixel,
-                           info.sampler));
-  row("integrator", fmt::format("{}, max_depth {}{}, rr_depth {}, {} shadow ray{} per hit", info.integrator,
-                                info.max_depth, info.max_depth < 0 ? " (unbounded)" : "", info.rr_depth,
-                                info.emitter_samples, info.emitter_samples == 1 ? "" : "s"));
-  row("geometry", fmt::format("{} triangles, {} spheres, {} lights", info.triangles, info.spheres, info.lights));
+  row("image", fmt::format("{} x {} pixels, {} per pixel ({})", info.width, info.height,
+                           format_plural(info.samples_per_pixel, "sample"), info.sampler));
+  row("integrator", fmt::format("{}, max_depth {}{}, rr_depth {}, {} per hit", info.integrator, info.max_depth,
+                                info.max_depth < 0 ? " (unbounded)" : "", info.rr_depth,
+                                format_plural(info.emitter_samples, "shadow ray")));
+  row("geometry", fmt::format("{}, {}, {}", format_plural(info.triangles, "triangle"),
+                              format_plural(info.spheres, "sphere"), format_plural(info.lights, "light")));
   row("bounds",
       fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", info.bounds_min[0], info.bounds_min[1],
                   info.bounds_min[2], info.bounds_max[0], info.bounds_max[1], info.bounds_max[2]));
@@ -94,6 +96,7 @@ void add_info_command(CLI::App& app, Action& action) {
   arguments->scene.add_to(*command);
   command->add_flag("--json", arguments->json, "Print one JSON object");
   command->footer("Examples:\n  norrsken info hexagon_room\n  norrsken info room.xml -Dlight=point --json");
+  command->group("Commands");
   command->callback([&action, arguments] { action = [arguments] { return tell(*arguments); }; });
 }
 

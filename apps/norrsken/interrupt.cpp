@@ -5,41 +5,51 @@
 namespace norrsken::cli {
 namespace {
 
+constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
+
 std::atomic<Render*> g_target = nullptr;
-std::atomic<bool> g_requested = false;
+std::atomic<bool> g_requested = false, g_saving = false;
 static_assert(std::atomic<Render*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
               "a signal handler may only touch lock-free atomics");
 
-extern "C" void norrsken_on_interrupt(int) {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-  g_requested.store(true);
-  if (Render* render = g_target.load()) render->cancel();
-}
-
-void install(int signal_number, struct sigaction& old) {
-  sigaction(signal_number, nullptr, &old);
-  if (old.sa_handler == SIG_IGN) return;
-  struct sigaction action {};
-  action.sa_handler = norrsken_on_interrupt;
-  action.sa_flags = SA_RESTART;
-  sigemptyset(&action.sa_mask);
-  sigaction(signal_number, &action, nullptr);
+extern "C" void norrsken_on_interrupt(int signal_number) {
+  const bool again = g_requested.exchange(true);
+  if (g_saving.load()) return;
+  if (again) {
+    // Blocked until this handler returns, and then deadly.
+    std::signal(signal_number, SIG_DFL);
+    std::raise(signal_number);
+  } else if (Render* render = g_target.load()) {
+    render->cancel();
+  }
 }
 
 }  // namespace
 
-InterruptGuard::InterruptGuard(Render& render) {
-  g_target.store(&render);
-  install(SIGINT, old_int_);
-  install(SIGTERM, old_term_);
+SignalHandlers::SignalHandlers() {
+  struct sigaction action {};
+  action.sa_handler = norrsken_on_interrupt;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &old_[i]);
+    if (old_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);
+  }
 }
 
-InterruptGuard::~InterruptGuard() {
-  sigaction(SIGINT, &old_int_, nullptr);
-  sigaction(SIGTERM, &old_term_, nullptr);
-  g_target.store(nullptr);
+SignalHandlers::~SignalHandlers() {
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &old_[i], nullptr);
 }
+
+// The handlers are members: they are there before the body sets what they act on, and go after it is taken back.
+InterruptGuard::InterruptGuard(Render& render) {
+  g_target.store(&render);
+  if (g_requested.load()) render.cancel();  // came before there was anything to cancel
+}
+InterruptGuard::~InterruptGuard() { g_target.store(nullptr); }
+
+SavingGuard::SavingGuard() { g_saving.store(true); }
+SavingGuard::~SavingGuard() { g_saving.store(false); }
 
 bool interrupt_requested() noexcept { return g_requested.load(); }
 

@@ -1,24 +1,44 @@
-// Ctrl-C and SIGTERM: the first cancels the rendering, the second ends the program.
+// Ctrl-C, SIGTERM and a closed terminal (SIGHUP): the first cancels the rendering, the second ends the program.
 #pragma once
 
+#include <array>
 #include <csignal>
 
 #include "norrsken/render.h"
 
 namespace norrsken::cli {
 
-/// While it lives, the first SIGINT or SIGTERM cancels `render` and gives both signals back their default effect, so
-/// that a second one kills at once. A signal that was ignored when the program started stays ignored. One at a time.
+/// SIGINT, SIGTERM and SIGHUP are ours while it lives. One that was ignored before, as under nohup, stays ignored.
+class SignalHandlers {
+ public:
+  SignalHandlers();
+  ~SignalHandlers();
+  SignalHandlers(const SignalHandlers&) = delete;
+  SignalHandlers& operator=(const SignalHandlers&) = delete;
+
+ private:
+  std::array<struct sigaction, 3> old_{};
+};
+
+/// While it lives, the first signal cancels `render`, also one that came earlier, and a second one kills the program.
+/// One at a time.
 class InterruptGuard {
  public:
   explicit InterruptGuard(Render& render);
   ~InterruptGuard();
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
 
  private:
-  struct sigaction old_int_ {
-  }, old_term_{};
+  SignalHandlers handlers_;
+};
+
+/// While it lives, signals are remembered and nothing else: what is being saved is not destroyed by impatience.
+class SavingGuard {
+ public:
+  SavingGuard();
+  ~SavingGuard();
+
+ private:
+  SignalHandlers handlers_;
 };
 
 /// Whether a signal has been caught since the program started.

@@ -13,13 +13,6 @@ namespace {
 
 std::string version_text() { return fmt::format("norrsken {} ({})", NORRSKEN_VERSION, fmt::join(usable_isas(), ", ")); }
 
-std::vector<std::string> command_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
-  return names;
-}
-
 ExitStatus usage_error(const CLI::App& app, const std::string& message) {
   print_error(message);
   const auto chosen = app.get_subcommands();
@@ -31,6 +24,7 @@ ExitStatus run(int argc, char** argv) {
   CLI::App app("Norrsken, a Monte Carlo ray tracer for the CPU", "norrsken");
   app.set_version_flag("--version", version_text, "Print the version and the instruction sets this processor can run");
   app.set_help_flag("-h,--help", "Print this help and exit");
+  app.formatter(help_formatter());
   app.require_subcommand(1);
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.footer(
@@ -40,7 +34,7 @@ ExitStatus run(int argc, char** argv) {
       "  norrsken figures -o figures --quick\n\n"
       "'norrsken COMMAND --help' tells the options of a command.\n"
       "Exit status: 0 done, 64 wrong command line, 65 wrong scene, 66 missing input, 70 internal fault,\n"
-      "73 cannot create output, 74 write error, 77 interrupted after saving.");
+      "73 cannot create output, 74 write error, 77 interrupted (render saves what there is).");
   Action action;
   add_render_command(app, action);
   add_info_command(app, action);
@@ -77,11 +71,13 @@ ExitStatus run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace norrsken::cli;
+  prepare_standard_files();
   ExitStatus status = ExitStatus::internal;
   try {
     status = run(argc, argv);
   } catch (const Failure& failure) {
-    if (*failure.what() != '\0') print_error(failure.what());
+    const bool is_error = failure.status() != ExitStatus::interrupted;
+    if (*failure.what() != '\0') is_error ? print_error(failure.what()) : print_note(failure.what());
     status = failure.status();
   } catch (const std::bad_alloc&) {
     print_error("out of memory");

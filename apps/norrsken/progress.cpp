@@ -66,6 +66,7 @@ void ProgressMeter::start(std::string label) {
   finish();
   label_ = std::move(label);
   last_ = Clock::now();
+  has_announced_ = false;
 }
 
 void ProgressMeter::update(const RenderProgress& progress) {
@@ -95,6 +96,12 @@ void ProgressMeter::update(const RenderProgress& progress) {
     return;
   }
   last_ = now;
+}
+
+void ProgressMeter::announce(std::string_view message) {
+  if (verbosity_ != Verbosity::text || std::exchange(has_announced_, true)) return;
+  finish();
+  print_note(message);
 }
 
 void ProgressMeter::finish() {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "norrsken/render.h"
 
@@ -30,6 +31,8 @@ class ProgressMeter {
   /// What the lines begin with ("figure 9: "); starts a new rendering.
   void start(std::string label);
   void update(const RenderProgress& progress);
+  /// Says something, in text only and once in a rendering however often it is called.
+  void announce(std::string_view message);
   /// Removes the rewritten line, so that other text can follow.
   void finish();
 
@@ -39,7 +42,7 @@ class ProgressMeter {
   Verbosity verbosity_;
   std::string label_;
   Clock::time_point last_ = Clock::now();
-  bool line_is_shown_ = false;
+  bool line_is_shown_ = false, has_announced_ = false;
 };
 
 }  // namespace norrsken::cli

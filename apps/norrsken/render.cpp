@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
@@ -21,7 +20,6 @@ struct Arguments {
   MachineArguments machine;
   ToneArguments tone;
   std::vector<std::string> outputs;
-  int spp = 0;
   std::uint64_t seed = 0;
   bool layers = false, features = false, quiet = false, json = false;
 
@@ -41,6 +39,18 @@ std::string default_output(const std::string& scene) {
   return (stem.empty() ? "render" : stem) + ".exr";
 }
 
+/// Without those that are there already, "a.exr" and "./a.exr" being the same.
+std::vector<std::string> without_repetitions(const std::vector<std::string>& paths) {
+  std::vector<std::string> result;
+  for (const std::string& path : paths) {
+    const auto is_same = [normal = std::filesystem::path(path).lexically_normal()](const std::string& other) {
+      return std::filesystem::path(other).lexically_normal() == normal;
+    };
+    if (std::none_of(result.begin(), result.end(), is_same)) result.push_back(path);
+  }
+  return result;
+}
+
 /// Options that cannot have an effect on any of the files asked for.
 void warn_about_useless_options(const Arguments& arguments) {
   const bool any_exr = std::any_of(arguments.outputs.begin(), arguments.outputs.end(), is_exr);
@@ -51,14 +61,14 @@ void warn_about_useless_options(const Arguments& arguments) {
     print_warning("EXR files hold linear radiance: --exposure and --tone change PNG and JPEG files only");
 }
 
-void tell_start(const Arguments& arguments, const SceneInfo& info, int spp) {
+void tell_start(const Arguments& arguments, const SceneInfo& info) {
   if (arguments.json) {
     print_json({{"event", "start"},
                 {"version", NORRSKEN_VERSION},
                 {"scene", arguments.scene.scene},
                 {"width", info.width},
                 {"height", info.height},
-                {"samples_per_pixel", spp},
+                {"samples_per_pixel", info.samples_per_pixel},
                 {"seed", arguments.seed},
                 {"integrator", info.integrator},
                 {"max_depth", info.max_depth},
@@ -66,9 +76,9 @@ void tell_start(const Arguments& arguments, const SceneInfo& info, int spp) {
                 {"sampler", info.sampler},
                 {"files", arguments.outputs}});
   } else if (!arguments.quiet) {
-    print_note(fmt::format("{}: {} x {} pixels, {} samples per pixel ({}), {}, {} shadow ray{} per hit",
-                           arguments.scene.scene, info.width, info.height, spp, info.sampler, info.integrator,
-                           info.emitter_samples, info.emitter_samples == 1 ? "" : "s"));
+    print_note(fmt::format("{}: {} x {} pixels, {} per pixel ({}), {}, {} per hit", arguments.scene.scene, info.width,
+                           info.height, format_plural(info.samples_per_pixel, "sample"), info.sampler, info.integrator,
+                           format_plural(info.emitter_samples, "shadow ray")));
   }
 }
 
@@ -83,11 +93,23 @@ void tell_dropped(const RenderStatistics& statistics) {
                             statistics.dropped_samples == 1 ? " was" : "s were", where, more ? ", ..." : ""));
 }
 
-void tell_done(const Arguments& arguments, const SceneInfo& info, int spp, const RenderStatistics& statistics) {
+/// Writes every file that can be written, tells what is wrong with the others, and returns those written.
+std::vector<std::string> write_outputs(const Arguments& arguments, const Render& rendering) {
+  const SavingGuard guard;
+  const Image image = rendering.image(arguments.layers || arguments.features);
+  std::vector<std::string> written;
+  for (const std::string& path : arguments.outputs) {
+    const IoStatus status = write_image(path, image, arguments.tone.tone_mapping());
+    status ? written.push_back(path) : print_error(status.error);
+  }
+  return written;
+}
+
+void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderStatistics& statistics,
+               const std::vector<std::string>& written) {
   const double pixels = static_cast<double>(info.width) * info.height;
   const double samples = static_cast<double>(statistics.samples);
   const double rays = static_cast<double>(statistics.closest_rays + statistics.shadow_rays);
-  const bool saved = statistics.samples > 0;
   if (arguments.json) {
     auto dropped = nlohmann::ordered_json::array();
     for (const DroppedSample& sample : statistics.dropped)
@@ -108,7 +130,7 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, int spp, const
                                      {"lanes", statistics.lanes},
                                      {"threads", statistics.threads},
                                      {"accelerator", statistics.accelerator},
-                                     {"files", saved ? arguments.outputs : std::vector<std::string>()}};
+                                     {"files", written}};
     if (statistics.relative_error >= 0) object["relative_error"] = statistics.relative_error;
     print_json(object);
     return;
@@ -119,44 +141,49 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, int spp, const
                                  format_digits(rays / statistics.seconds / 1e6));
   if (statistics.relative_error >= 0)
     text += fmt::format(", estimated error {}", format_percent(statistics.relative_error));
-  text += fmt::format(" ({}, {} lanes, {} thread{}, {})", statistics.isa, statistics.lanes, statistics.threads,
-                      statistics.threads == 1 ? "" : "s", statistics.accelerator);
+  text += fmt::format(" ({}, {}, {}, {})", statistics.isa, format_plural(statistics.lanes, "lane"),
+                      format_plural(statistics.threads, "thread"), statistics.accelerator);
   print_note(text);
-  if (saved) print_note(fmt::format("wrote {}", fmt::join(arguments.outputs, ", ")));
-  if (statistics.cancelled && saved)
-    print_note(fmt::format("interrupted: the image holds {:.3g} of {} samples per pixel", samples / pixels, spp));
-  else if (statistics.cancelled)
+  if (!written.empty()) print_note(fmt::format("wrote {}", fmt::join(written, ", ")));
+  if (!statistics.cancelled) return;
+  const double taken = samples / pixels;
+  if (!written.empty())
+    print_note(fmt::format("interrupted: the image holds {} of {} per pixel",
+                           taken < 1 ? fmt::format("{:.2g}", taken) : format_digits(taken),
+                           format_plural(info.samples_per_pixel, "sample")));
+  else if (statistics.samples == 0)
     print_note("interrupted before the first sample: nothing was written");
 }
 
 ExitStatus render(Arguments arguments) {
   if (arguments.outputs.empty()) arguments.outputs = {default_output(arguments.scene.scene)};
-  for (const std::string& path : arguments.outputs) require_writable(path);
-  if (!arguments.quiet) warn_about_useless_options(arguments);
+  arguments.outputs = without_repetitions(arguments.outputs);
+  const ExitStatus outputs = check_outputs(arguments.outputs);
+  if (!arguments.quiet && outputs == ExitStatus::done) warn_about_useless_options(arguments);
 
-  const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet);
+  const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet, outputs);
   const SceneInfo info = scene.info();
   RenderOptions options;
   arguments.machine.apply_to(options);
-  if (arguments.spp > 0) options.samples_per_pixel = arguments.spp;
   options.seed = arguments.seed;
   options.features = arguments.features;
   const auto rendering = create_render(scene, options);
-  const int spp = options.samples_per_pixel.value_or(info.samples_per_pixel);
-  tell_start(arguments, info, spp);
+  tell_start(arguments, info);
 
   const InterruptGuard guard(*rendering);
   ProgressMeter meter(arguments.verbosity());
   meter.start("");
-  const RenderStatistics statistics = rendering->run([&](const RenderProgress& progress) { meter.update(progress); });
+  const RenderStatistics statistics = rendering->run([&](const RenderProgress& progress) {
+    meter.update(progress);
+    if (interrupt_requested()) meter.announce("stopping; writing what there is (Ctrl-C again discards it)");
+  });
   meter.finish();
 
-  if (statistics.samples > 0) {
-    const Image image = rendering->image(arguments.layers || arguments.features);
-    for (const std::string& path : arguments.outputs) write_image_or_fail(path, image, arguments.tone.tone_mapping());
-  }
+  std::vector<std::string> written;
+  if (statistics.samples > 0) written = write_outputs(arguments, *rendering);
   if (!arguments.quiet) tell_dropped(statistics);
-  tell_done(arguments, info, spp, statistics);
+  tell_done(arguments, info, statistics, written);
+  if (statistics.samples > 0 && written.size() < arguments.outputs.size()) return ExitStatus::io_error;
   return statistics.cancelled ? ExitStatus::interrupted : ExitStatus::done;
 }
 
@@ -168,13 +195,11 @@ void add_render_command(CLI::App& app, Action& action) {
   arguments->scene.add_to(*command);
   command
       ->add_option("-o,--output", arguments->outputs,
-                   "Image to write: .exr (linear float), .png or .jpg (tone-mapped); may be repeated")
+                   "Image to write: .exr (linear float), .png or .jpg (tone-mapped); may be repeated; default: the\n"
+                   "scene's name with .exr, in the current folder")
       ->take_all()
       ->allow_extra_args(false)
       ->type_name("FILE");
-  command->add_option("--spp", arguments->spp, "Samples per pixel in place of the scene's")
-      ->check(whole_number(1, std::numeric_limits<int>::max()))
-      ->type_name("N");
   command->add_option("--seed", arguments->seed, "Seed of the random numbers; default 0")
       ->check(seed_number())
       ->type_name("S");
@@ -187,14 +212,14 @@ void add_render_command(CLI::App& app, Action& action) {
   command->add_flag("--json", arguments->json, "Print one JSON object a line on stdout: start, progress, done")
       ->excludes(quiet);
   command->footer(
-      "Without -o the image goes to the scene's name with .exr, in the current folder.\n"
-      "Ctrl-C or SIGTERM stops the rendering, writes what there is and exits with status 77; a second one stops at\n"
-      "once. The same scene, seed and options give the same image for any number of threads.\n\n"
+      "Ctrl-C, SIGTERM or SIGHUP stops the rendering, writes what there is and exits with status 77; a second one\n"
+      "discards it. The same scene, seed and options give the same image for any number of threads.\n\n"
       "Examples:\n"
       "  norrsken render hexagon_room                              writes hexagon_room.exr\n"
       "  norrsken render room.xml -o room.png --spp 256 --exposure 0.5 --tone filmic\n"
       "  norrsken render hexagon_room -Dlight=point -Dshadow_rays=1 -o a.exr -o a.png --layers\n"
       "  norrsken render room.xml --size 1920x1080 --json");
+  command->group("Commands");
   command->callback([&action, arguments] { action = [arguments] { return render(*arguments); }; });
 }
 

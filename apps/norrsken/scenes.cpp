@@ -30,6 +30,7 @@ void add_scenes_command(CLI::App& app, Action& action) {
   auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "One JSON object a line");
   command->footer("Example:\n  norrsken scenes");
+  command->group("Commands");
   command->callback([&action, json] { action = [json] { return list_scenes(*json); }; });
 }
 

@@ -1,9 +1,10 @@
 #include "session.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "console.h"
 
@@ -16,9 +17,7 @@ bool is_builtin(const std::string& name) {
 }
 
 ExitStatus status_of(const std::string& scene, const Diagnostics& diagnostics) {
-  // A folder opens, but cannot be read from.
-  std::ifstream file(scene);
-  if (!is_builtin(scene) && (!file || file.peek(), file.bad() || !file.is_open())) return ExitStatus::no_input;
+  if (!is_builtin(scene) && unreadable_input_status(scene) == ExitStatus::no_input) return ExitStatus::no_input;
   const auto& all = diagnostics.all();
   const bool names_a_file = std::any_of(all.begin(), all.end(), [](const Diagnostic& diagnostic) {
     return diagnostic.severity == Diagnostic::Severity::error && !diagnostic.location.file.empty();
@@ -28,10 +27,17 @@ ExitStatus status_of(const std::string& scene, const Diagnostics& diagnostics) {
 
 }  // namespace
 
-Scene load_scene(const std::string& name, const LoadOptions& options, bool with_warnings) {
+ExitStatus unreadable_input_status(const std::string& path) {
+  struct stat status {};
+  const bool readable = stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && access(path.c_str(), R_OK) == 0;
+  return readable ? ExitStatus::data_error : ExitStatus::no_input;
+}
+
+Scene load_scene(const std::string& name, const LoadOptions& options, bool with_warnings, ExitStatus so_far) {
   Diagnostics diagnostics;
   auto scene = Scene::load(name, options, diagnostics);
   print_diagnostics(diagnostics, with_warnings);
+  if (so_far != ExitStatus::done) throw Failure(so_far, "");
   if (!scene) throw Failure(status_of(name, diagnostics), "");
   return *scene;
 }
@@ -44,9 +50,16 @@ std::unique_ptr<Render> create_render(const Scene& scene, const RenderOptions& o
   return render;
 }
 
-void require_writable(const std::string& path) {
-  const IoStatus status = check_writable(path);
-  if (!status) throw Failure(ExitStatus::cannot_create, status.error);
+ExitStatus check_outputs(const std::vector<std::string>& paths) {
+  ExitStatus result = ExitStatus::done;
+  for (const std::string& path : paths) {
+    const IoStatus status = check_writable(path);
+    if (status) continue;
+    print_error(status.error);
+    if (!check_image_name(path)) result = ExitStatus::usage;
+    if (result == ExitStatus::done) result = ExitStatus::cannot_create;
+  }
+  return result;
 }
 
 void write_image_or_fail(const std::string& path, const Image& image, const ToneMapping& tone) {

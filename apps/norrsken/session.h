@@ -3,21 +3,30 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "exit_status.h"
 #include "norrsken/render.h"
 #include "norrsken/scene.h"
 
 namespace norrsken::cli {
 
+/// What to exit with if `path` could not be read: no_input if it is missing, no regular file or forbidden, otherwise
+/// data_error. Never opens it: that waits for ever on a pipe.
+ExitStatus unreadable_input_status(const std::string& path);
+
 /// Tells the scene's diagnostics on stderr. A Failure without text if there were errors: no_input if the file itself
-/// cannot be read, usage if all complaints are about the command line, data_error otherwise.
-Scene load_scene(const std::string& name, const LoadOptions& options, bool with_warnings = true);
+/// cannot be read, usage if all complaints are about the command line, data_error otherwise. `so_far` is what has been
+/// complained about before the scene was loaded: if it is not `done`, it is the Failure's status.
+Scene load_scene(const std::string& name, const LoadOptions& options, bool with_warnings = true,
+                 ExitStatus so_far = ExitStatus::done);
 
 /// A Failure (usage) if the options do not fit this build, this processor or the scene.
 std::unique_ptr<Render> create_render(const Scene& scene, const RenderOptions& options);
 
-/// A Failure (cannot_create) that tells what is wrong with `path`.
-void require_writable(const std::string& path);
+/// Tells on stderr what is wrong with each of these images to be written: `usage` if the extension of one is unknown,
+/// otherwise `cannot_create`, or `done`.
+ExitStatus check_outputs(const std::vector<std::string>& paths);
 
 /// A Failure (io_error) if the file could not be written.
 void write_image_or_fail(const std::string& path, const Image& image, const ToneMapping& tone);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 namespace norrsken::cli {
+
 std::string format_digits(double value) {
   if (value < 9.995) return fmt::format("{:.2f}", value);
   if (value < 99.95) return fmt::format("{:.1f}", value);
@@ -39,6 +40,10 @@ std::string format_percent(double share) {
   const double percent = 100 * share;
   if (percent > 0 && percent < 0.995) return fmt::format("{:.2g} %", percent);
   return format_digits(percent) + " %";
+}
+
+std::string format_plural(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 std::string format_bytes(std::uint64_t bytes) {

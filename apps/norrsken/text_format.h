@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace norrsken::cli {
 
@@ -18,6 +19,9 @@ std::string format_count(double count);
 
 /// A share as percent with three significant digits: 0.0123 is "1.23 %"; negative or not finite is "?".
 std::string format_percent(double share);
+
+/// "1 sphere", "2 spheres", "0 lights".
+std::string format_plural(std::uint64_t count, std::string_view noun);
 
 /// Bytes with a binary suffix: "512 B", "1.5 KiB", "12 MiB".
 std::string format_bytes(std::uint64_t bytes);

@@ -51,6 +51,12 @@ TEST(FormatPercent, SmallSharesKeepTheirDigits) {
   EXPECT_EQ(format_percent(-1), "?");
 }
 
+TEST(FormatPlural, OneIsSingular) {
+  EXPECT_EQ(format_plural(0, "light"), "0 lights");
+  EXPECT_EQ(format_plural(1, "sphere"), "1 sphere");
+  EXPECT_EQ(format_plural(2, "shadow ray"), "2 shadow rays");
+}
+
 TEST(FormatBytes, BinarySuffixes) {
   EXPECT_EQ(format_bytes(1023), "1023 B");
   EXPECT_EQ(format_bytes(1536), "1.5 KiB");
