@@ -71,13 +71,14 @@ struct SceneLine {
 
 TEST(SceneArguments, DefinitionsJoinedAndApartInOrder) {
   SceneLine line;
-  line.parse("render -Da=1 room.xml -D b=2 -Da=3 --size 20x10 --sampler independent");
+  line.parse("render -Da=1 room.xml -D b=2 -Da=3 --size 20x10 --sampler independent --spp 8");
   const LoadOptions options = line.scene.load_options();
   EXPECT_EQ(line.scene.scene, "room.xml");
   EXPECT_THAT(options.parameters, testing::ElementsAre(Pair("a", "1"), Pair("b", "2"), Pair("a", "3")));
   EXPECT_EQ(options.width, 20);
   EXPECT_EQ(options.height, 10);
   EXPECT_EQ(options.sampler, "independent");
+  EXPECT_EQ(options.samples_per_pixel, 8);
   EXPECT_FALSE(options.integrator);
 }
 
@@ -110,6 +111,8 @@ TEST(DescribeUsageError, NamesTheOptionAndASuggestion) {
   EXPECT_EQ(complaint("render a.xml --threads"), "option '--threads' needs a value");
   EXPECT_THAT(complaint("render a.xml -Dfoo"), HasSubstr("found 'foo', accepted is NAME=VALUE"));
   EXPECT_THAT(complaint("render"), HasSubstr("SCENE"));
+  EXPECT_EQ(complaint("--spp=4 render a.xml"), "'--spp' belongs after the command: norrsken render --spp");
+  EXPECT_EQ(complaint("-V"), "unknown option '-V'");
 }
 
 }  // namespace

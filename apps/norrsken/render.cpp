@@ -195,8 +195,8 @@ void add_render_command(CLI::App& app, Action& action) {
   arguments->scene.add_to(*command);
   command
       ->add_option("-o,--output", arguments->outputs,
-                   "Image to write: .exr (linear float), .png or .jpg (tone-mapped); may be repeated; default: the\n"
-                   "scene's name with .exr, in the current folder")
+                   "Image to write: .exr (linear float), .png or .jpg (tone-mapped); may be repeated;\n"
+                   "default: the scene's name with .exr, in the current folder")
       ->take_all()
       ->allow_extra_args(false)
       ->type_name("FILE");

@@ -1,0 +1,86 @@
+#include "interrupt.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace norrsken::cli {
+namespace {
+
+struct FakeRender final : Render {
+  RenderStatistics run(const std::function<void(const RenderProgress&)>&) override { return {}; }
+  void cancel() noexcept override { ++cancelled; }
+  Image image(bool) const override { return {}; }
+  int cancelled = 0;
+};
+
+// Every case is a process of its own: a caught signal is remembered for as long as the program runs.
+[[noreturn]] void finish(bool as_expected) { std::_Exit(as_expected ? 0 : 1); }
+
+void cancel_once(int signal_number) {
+  FakeRender render;
+  const InterruptGuard guard(render);
+  std::raise(signal_number);
+  finish(render.cancelled == 1 && interrupt_requested());
+}
+
+void interrupt_twice() {
+  FakeRender render;
+  const InterruptGuard guard(render);
+  std::raise(SIGTERM);
+  std::raise(SIGINT);
+  finish(false);
+}
+
+void interrupt_while_saving() {
+  FakeRender render;
+  const InterruptGuard guard(render);
+  std::raise(SIGINT);
+  {
+    const SavingGuard saving;
+    std::raise(SIGINT);
+    std::raise(SIGHUP);
+  }
+  finish(render.cancelled == 1);
+}
+
+void interrupt_between_renderings() {
+  {
+    const SavingGuard saving;
+    std::raise(SIGINT);
+  }
+  FakeRender render;
+  const InterruptGuard guard(render);
+  finish(render.cancelled == 1);
+}
+
+void hang_up_when_ignored() {
+  std::signal(SIGHUP, SIG_IGN);
+  FakeRender render;
+  const InterruptGuard guard(render);
+  std::raise(SIGHUP);
+  std::raise(SIGINT);
+  std::raise(SIGHUP);
+  finish(render.cancelled == 1);
+}
+
+TEST(InterruptDeathTest, TheFirstSignalCancelsAndTheSecondKills) {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP})
+    EXPECT_EXIT(cancel_once(signal_number), testing::ExitedWithCode(0), "") << signal_number;
+  EXPECT_EXIT(interrupt_twice(), testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(InterruptDeathTest, SavingIsNotInterrupted) {
+  EXPECT_EXIT(interrupt_while_saving(), testing::ExitedWithCode(0), "");
+}
+
+TEST(InterruptDeathTest, WhatCameWhileSavingCancelsTheNextRendering) {
+  EXPECT_EXIT(interrupt_between_renderings(), testing::ExitedWithCode(0), "");
+}
+
+TEST(InterruptDeathTest, AnIgnoredSignalStaysIgnored) {
+  EXPECT_EXIT(hang_up_when_ignored(), testing::ExitedWithCode(0), "");
+}
+
+}  // namespace
+}  // namespace norrsken::cli
