@@ -88,12 +88,29 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return closest ? std::string(", did you mean '").append(*closest).append("'?") : std::string();
 }
 
-std::string quoted(std::string_view text, std::size_t max_bytes) {
-  if (text.size() <= max_bytes) return std::string(1, '\'').append(text).append(1, '\'');
+std::string shortened(std::string_view text, std::size_t max_bytes) {
+  if (text.size() <= max_bytes) return std::string(text);
   std::size_t end = max_bytes;
   // Step back over continuation bytes to the first byte of a character.
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u) --end;
-  return std::string(1, '\'').append(text.substr(0, end)).append("...'");
+  return std::string(text.substr(0, end)).append("...");
+}
+
+std::string quoted(std::string_view text, std::size_t max_bytes) {
+  return std::string(1, '\'').append(shortened(text, max_bytes)).append(1, '\'');
+}
+
+std::string listed(const std::vector<std::string>& words, std::size_t max_bytes) {
+  constexpr std::size_t kMaxListed = 20;
+  std::vector<std::string> shown;
+  for (const std::string& word : words) {
+    if (shown.size() == kMaxListed) {
+      shown.emplace_back("...");
+      break;
+    }
+    shown.push_back(shortened(word, max_bytes));
+  }
+  return join(shown);
 }
 
 std::size_t utf8_length(std::string_view text, std::size_t at) {

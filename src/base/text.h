@@ -29,8 +29,14 @@ std::optional<std::string> closest_word(std::string_view word, const std::vector
 /// ", did you mean 'WORD'?" or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& words);
 
-/// `'text'`, cut to about `max_bytes` with "..." in the place of what is left out; never cuts a UTF-8 character.
+/// `text`, cut to about `max_bytes` with "..." in the place of what is left out; never cuts a UTF-8 character.
+std::string shortened(std::string_view text, std::size_t max_bytes = 60);
+
+/// The same in single quotes.
 std::string quoted(std::string_view text, std::size_t max_bytes = 60);
+
+/// The first twenty of `words`, each cut to `max_bytes`: for lists as long as a file makes them.
+std::string listed(const std::vector<std::string>& words, std::size_t max_bytes = 60);
 
 /// Bytes of the UTF-8 character that begins at `text[at]`, 0 if it is malformed (RFC 3629: no overlong forms, no
 /// surrogates, nothing above U+10FFFF). `at` must be below the size.

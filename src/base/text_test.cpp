@@ -5,6 +5,12 @@
 namespace norrsken {
 namespace {
 
+std::string repeated(const std::string& text, int times) {
+  std::string result;
+  for (int i = 0; i < times; ++i) result += text;
+  return result;
+}
+
 TEST(Text, TrimRemovesBlanksAtBothEndsOnly) {
   EXPECT_EQ(trim(" \t a b\r\n"), "a b");
   EXPECT_EQ(trim(" \n"), "");
@@ -47,6 +53,14 @@ TEST(Text, QuotedCutsBetweenCharacters) {
                    "bcd",
                    2),
             "'a...'");  // the cut would fall inside the second character
+}
+
+TEST(Text, LongListsAreCut) {
+  EXPECT_EQ(listed({}), "");
+  EXPECT_EQ(listed({"a", "bcdef"}, 3), "a, bcd...");
+  EXPECT_EQ(listed(std::vector<std::string>(20, "a")), "a" + repeated(", a", 19));
+  EXPECT_EQ(listed(std::vector<std::string>(21, "a")), "a" + repeated(", a", 19) + ", ...");
+  EXPECT_EQ(listed({std::string(1000, 'x')}), std::string(60, 'x') + "...");
 }
 
 TEST(Text, Utf8IsCheckedStrictly) {

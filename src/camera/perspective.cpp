@@ -48,11 +48,7 @@ double focal_length_angle(Parameters& p) {
 /// Half the image's width at distance 1.
 double half_width(Parameters& p, double aspect) {
   std::string axis = p.choice("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"});
-  double degrees = p.number("fov", 45, 0, 180);
-  if (degrees == 0 || degrees == 180) {
-    p.error("fov", fmt::format("'fov' is {}", degrees), "a number above 0 and below 180");
-    degrees = 45;
-  }
+  const double degrees = p.number("fov", 45, 0, 180, Ends::open);
   double angle = focal_length_angle(p);
   if (!p.has("fov")) {
     axis = "diagonal";
@@ -68,13 +64,6 @@ double half_width(Parameters& p, double aspect) {
   if (axis == "y") return half * aspect;
   if (axis == "diagonal") return half / std::sqrt(1 + 1 / (aspect * aspect));
   return half;
-}
-
-double clip_distance(Parameters& p, const char* name, double fallback) {
-  const double distance = p.number(name, fallback, 0, kMaxCoordinate);
-  if (distance > 0) return distance;
-  p.error(name, fmt::format("'{}' is {}", name, distance), "a number above 0");
-  return fallback;
 }
 
 bool keeps_lengths(const glm::dmat3& linear) {
@@ -97,8 +86,8 @@ CameraRecord compile_sensor_perspective(Parameters& p, Builder& builder, const F
   const double width = film.width, height = film.height;
   const double half_x = half_width(p, width / height);
   const double half_y = half_x * height / width;
-  const double near_clip = clip_distance(p, "near_clip", 1e-2);
-  const double far_clip = clip_distance(p, "far_clip", 1e4);
+  const double near_clip = p.number("near_clip", 1e-2, 0, kMaxCoordinate, Ends::open_below);
+  const double far_clip = p.number("far_clip", 1e4, 0, kMaxCoordinate, Ends::open_below);
   if (near_clip >= far_clip) {
     p.error(p.has("near_clip") ? "near_clip" : "far_clip",
             fmt::format("'near_clip' is {}, but 'far_clip' is {}", near_clip, far_clip),

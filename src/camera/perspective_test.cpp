@@ -106,7 +106,7 @@ TEST(Perspective, RefusesAnglesThatSpanNothing) {
                 ElementsAre("error: 'fov' is " + wrong + " [a number above 0 and below 180]"));
   }
   EXPECT_THAT(compile_camera(number("fov", "200")).messages(),
-              ElementsAre("error: 'fov' is 200 [a number from 0 to 180]"));
+              ElementsAre("error: 'fov' is 200 [a number above 0 and below 180]"));
   EXPECT_THAT(compile_camera(text("fov", "wide")).messages(), ElementsAre("error: 'fov' is a string [float]"));
 }
 

@@ -1,10 +1,12 @@
 #include "compile/builder.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "base/text.h"
 #include "compile/plugins.h"
@@ -24,13 +26,28 @@ std::uint64_t bytes_of(const Container& container) {
   return container.size() * sizeof(container[0]);
 }
 
+std::uint64_t physical_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGE_SIZE);
+  // Whoever cannot tell is taken to have enough.
+  if (pages <= 0 || page_bytes <= 0) return std::numeric_limits<std::uint64_t>::max();
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes);
+}
+
 }  // namespace
+
+std::string film_memory_message(int width, int height, std::uint64_t memory) {
+  constexpr double kGibibyte = 1 << 30;
+  return fmt::format("a film of {} x {} pixels needs {:.1f} GiB, this machine has {:.1f} GiB", width, height,
+                     static_cast<double>(width) * height * kFilmBytes / kGibibyte,
+                     static_cast<double>(memory) / kGibibyte);
+}
 
 void Builder::refuse_kinds_to_come(Parameters& parameters) {
   for (const Node::Child& child : parameters.node().children) {
     const std::string& kind = child.node->kind;
     if (kind != "medium" && kind != "texture" && kind != "volume") continue;
-    complain_about_plugin(*child.node, {}, diagnostics_);
+    complain_about_plugin(*child.node, {kind == "texture" ? "rgb, spectrum or float" : "a scene without " + kind},
+                          diagnostics_);
     parameters.children(kind);  // said enough about those
   }
 }
@@ -43,7 +60,8 @@ Material Builder::bsdf(const Node& node) {
   if (const auto known = materials_.find(&node); known != materials_.end()) return known->second;
   Material material;
   if (bsdf_depth_ == kMaxBsdfDepth) {
-    diagnostics_.error(node.location, fmt::format("bsdfs are nested more than {} deep", kMaxBsdfDepth));
+    diagnostics_.error(node.location, fmt::format("bsdfs are nested more than {} deep", kMaxBsdfDepth),
+                       fmt::format("up to {} inside each other", kMaxBsdfDepth));
   } else if (const auto* plugin = find_plugin(bsdf_plugins(), node, diagnostics_)) {
     ++bsdf_depth_;
     Parameters p = parameters(node);
@@ -147,12 +165,14 @@ FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options) {
   };
   override_side("width", options.width, settings.width);
   override_side("height", options.height, settings.height);
-  const std::int64_t pixels = std::int64_t{settings.width} * settings.height;
+  const auto pixels = static_cast<std::uint64_t>(std::int64_t{settings.width} * settings.height);
+  const SourceLocation place = options.width || options.height ? SourceLocation{} : node.location;
   if (pixels > kMaxFilmPixels) {
-    const bool overridden = options.width || options.height;
-    diagnostics_.error(overridden ? SourceLocation{} : node.location,
-                       fmt::format("a film of {} x {} has {} pixels", settings.width, settings.height, pixels),
+    diagnostics_.error(place, fmt::format("a film of {} x {} has {} pixels", settings.width, settings.height, pixels),
                        fmt::format("up to {} pixels", kMaxFilmPixels));
+  } else if (const std::uint64_t memory = physical_memory(); pixels * kFilmBytes > memory) {
+    diagnostics_.error(place, film_memory_message(settings.width, settings.height, memory),
+                       fmt::format("up to {} pixels", memory / kFilmBytes));
   }
   describe(node, fmt::format("{} x {}", settings.width, settings.height));
   return settings;

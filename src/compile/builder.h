@@ -18,7 +18,9 @@ namespace norrsken {
 
 /// Bounds on what a scene may ask for.
 inline constexpr int kMaxFilmSide = 65536;
-inline constexpr std::int64_t kMaxFilmPixels = std::int64_t{1} << 28;
+inline constexpr std::uint64_t kMaxFilmPixels = std::uint64_t{1} << 28;
+/// Of a pixel while it is rendered: double-precision sums of three channels of four images, and a count.
+inline constexpr std::uint64_t kFilmBytes = 3 * 4 * 8 + 4;
 inline constexpr double kMaxEmission = 1e18;  ///< of radiance and intensity; its square must fit a float
 
 /// The two sides of a surface; `front` is the one that the normal points to.
@@ -37,6 +39,9 @@ struct ShapeGeometry {
   MeshData mesh;
   std::vector<Sphere> spheres;
 };
+
+/// For a film that does not fit `memory` bytes.
+std::string film_memory_message(int width, int height, std::uint64_t memory);
 
 class Builder {
  public:

@@ -38,7 +38,7 @@ TEST(Compile, RefusesWhatDoesNotBelongIntoAScene) {
               ElementsAre("error: unused film 'hdrfilm' in scene "
                           "[bsdf, emitter, integrator, sensor, shape]"));
   EXPECT_THAT(compile_elements(rest + R"(<texture type="bitmap" id="t"/>)").messages(),
-              ElementsAre("error: texture 'bitmap' is not supported yet"));
+              ElementsAre("error: texture 'bitmap' is not supported yet [rgb, spectrum or float]"));
   EXPECT_THAT(compile_elements(rest + R"(<integer name="width" value="4"/>)").messages(),
               ElementsAre("error: unused parameter 'width' of scene [no parameters]"));
 }

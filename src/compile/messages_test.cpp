@@ -7,7 +7,7 @@ namespace norrsken::testing {
 namespace {
 
 /// All complaints about a scene of a sensor, a light (on lines 2 to 7) and `elements`.
-std::string complaints(const std::string& elements, const Files& files = {}) {
+std::string complaints(const std::string& elements, const Files& files = {}, const LoadOptions& options = {}) {
   const std::string rest =
       "  <sensor type=\"perspective\">\n"
       "    <film type=\"hdrfilm\">\n"
@@ -15,7 +15,7 @@ std::string complaints(const std::string& elements, const Files& files = {}) {
       "    </film>\n"
       "  </sensor>\n"
       "  <emitter type=\"point\"/>\n";
-  const Compiled compiled = compile_elements(rest + elements, files);
+  const Compiled compiled = compile_elements(rest + elements, files, options);
   std::string text;
   for (const Diagnostic& d : compiled.diagnostics.all()) text += to_text(d) + "\n";
   return text;
@@ -168,6 +168,116 @@ TEST(Messages, NoShape) {
     1 | <scene version="3.0.0">
       | ^~~~~~
 accepted: <shape type="...">
+)");
+}
+
+TEST(Messages, OutOfRange) {
+  EXPECT_EQ(complaints(R"(  <shape type="sphere">
+    <float name="radius" value="-1"/>
+  </shape>)"),
+            R"(scene.xml:9:33: error: 'radius' is -1
+    9 |     <float name="radius" value="-1"/>
+      |                                 ^~
+accepted: a number above 0
+)");
+  EXPECT_EQ(complaints(R"(  <shape type="sphere">
+    <float name="radius" value="1e16"/>
+  </shape>)"),
+            R"(scene.xml:9:33: error: 'radius' is 1e+16
+    9 |     <float name="radius" value="1e16"/>
+      |                                 ^~~~
+accepted: a number above 0 and at most 1e+15
+)");
+}
+
+TEST(Messages, OutOfRangeThroughAParameter) {
+  const std::string elements = R"(  <default name="size" value="0"/>
+  <shape type="sphere">
+    <float name="radius" value="$size"/>
+  </shape>)";
+  EXPECT_EQ(complaints(elements),
+            R"(scene.xml:10:33: error: 'radius' is 0 (from '$size')
+   10 |     <float name="radius" value="$size"/>
+      |                                 ^~~~~
+accepted: a number above 0
+)");
+  LoadOptions options;
+  options.parameters = {{"size", "-2"}};
+  EXPECT_EQ(complaints(elements, {}, options),
+            R"(scene.xml:10:33: error: 'radius' is -2 (from '$size', set by -Dsize=-2)
+   10 |     <float name="radius" value="$size"/>
+      |                                 ^~~~~
+accepted: a number above 0
+)");
+}
+
+TEST(Messages, OutOfRangeThroughADefaultMadeOfAnother) {
+  const std::string elements = R"(  <default name="spp" value="1"/>
+  <default name="rays" value="$spp"/>
+  <integrator type="path">
+    <integer name="emitter_samples" value="$rays"/>
+  </integrator>
+  <shape type="sphere"/>)";
+  LoadOptions options;
+  options.parameters = {{"spp", "0"}};
+  EXPECT_EQ(complaints(elements, {}, options),
+            R"(scene.xml:11:44: error: 'emitter_samples' is 0 (from '$rays', set by -Dspp=0)
+   11 |     <integer name="emitter_samples" value="$rays"/>
+      |                                            ^~~~~
+accepted: an integer from 1 to 100000
+)");
+}
+
+TEST(Messages, AMeshFileThatIsNone) {
+  EXPECT_EQ(complaints(R"(  <shape type="obj">
+    <string name="filename" value="empty.obj"/>
+  </shape>
+  <shape type="ply">
+    <string name="filename" value="bad.ply"/>
+  </shape>)",
+                       {{"empty.obj", "# nothing\n"}, {"bad.ply", "\x01\x02"}}),
+            R"(empty.obj: error: the file has no faces (named at scene.xml:9:36)
+accepted: OBJ text with 'v' and 'f' lines
+bad.ply: error: this is no PLY file (named at scene.xml:12:36)
+accepted: a file whose first line is 'ply'
+)");
+}
+
+TEST(Messages, AMeshFileThatIsAFolder) {
+  EXPECT_EQ(complaints(R"(  <shape type="obj">
+    <string name="filename" value="meshes"/>
+  </shape>)",
+                       {{"meshes/a.obj", ""}}),
+            R"(scene.xml:9:36: error: cannot read 'meshes': is a folder
+    9 |     <string name="filename" value="meshes"/>
+      |                                    ^~~~~~
+accepted: a readable obj file
+)");
+}
+
+TEST(Messages, AnIncludedFileTellsWhereItWasNamed) {
+  EXPECT_EQ(complaints("  <include filename=\"part.xml\"/>",
+                       {{"part.xml", "<scene>\n  <shape type=\"sphre\"/>\n</scene>\n"}}),
+            R"(part.xml:2:16: error: unknown shape 'sphre', did you mean 'sphere'? (named at scene.xml:8:22)
+    2 |   <shape type="sphre"/>
+      |                ^~~~~
+accepted: obj, ply, rectangle, sphere
+)");
+}
+
+TEST(Messages, KindsToCome) {
+  EXPECT_EQ(complaints(R"(  <shape type="sphere">
+    <medium type="homogeneous"/>
+  </shape>
+  <texture type="bitmap"/>)"),
+            R"(scene.xml:9:19: error: medium 'homogeneous' is not supported yet
+    9 |     <medium type="homogeneous"/>
+      |                   ^~~~~~~~~~~
+accepted: a scene without medium
+scene.xml:11:18: error: texture 'bitmap' is not supported yet
+   11 |   <texture type="bitmap"/>
+      |                  ^~~~~~
+accepted: rgb, spectrum or float
 )");
 }
 

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include "compile/builder.h"
 #include "compile/compile_testing.h"
 
 namespace norrsken::testing {
@@ -38,7 +40,21 @@ TEST(Hdrfilm, RefusesSizesThatNoMachineHolds) {
               ElementsAre("error: 'height' is 0 [an integer from 1 to 65536]"));
   EXPECT_THAT(compile_film(kBox + size("65536", "65536")).messages(),
               ElementsAre("error: a film of 65536 x 65536 has 4294967296 pixels [up to 268435456 pixels]"));
-  EXPECT_THAT(compile_film(kBox + size("65536", "4096")).messages(), IsEmpty());
+  EXPECT_THAT(compile_film(kBox + size("16384", "4096")).messages(), IsEmpty());
+}
+
+TEST(Hdrfilm, RefusesSizesThatThisMachineDoesNotHold) {
+  // 25 GiB.
+  const auto memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGE_SIZE);
+  const std::vector<std::string> messages = compile_film(kBox + size("65536", "4096")).messages();
+  if (memory >= std::uint64_t{25} << 30) {
+    EXPECT_THAT(messages, IsEmpty());
+  } else {
+    EXPECT_THAT(messages, ElementsAre("error: " + film_memory_message(65536, 4096, memory) + " [up to " +
+                                      std::to_string(memory / 100) + " pixels]"));
+  }
+  EXPECT_EQ(film_memory_message(65536, 4096, std::uint64_t{3} << 29),
+            "a film of 65536 x 4096 pixels needs 25.0 GiB, this machine has 1.5 GiB");
 }
 
 TEST(Hdrfilm, WarnsThatBoxStandsInForAMissingFilter) {

@@ -21,6 +21,22 @@ constexpr std::size_t kLongestPath = 4096;  // bytes shown in full
 
 std::string error_text(int error) { return std::generic_category().message(error); }
 
+/// Where a chain of symbolic links ends, whether there is something or not.
+fs::path follow_links(fs::path path, std::error_code& code) {
+  constexpr int kMaxLinks = 40;  // as Linux has it
+  for (int links = 0; fs::is_symlink(path, code); ++links) {
+    if (links == kMaxLinks) {
+      code = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+      return path;
+    }
+    const fs::path next = fs::read_symlink(path, code);
+    if (code) return path;
+    path = path.parent_path() / next;  // which is `next` if that is absolute
+  }
+  code.clear();
+  return path;
+}
+
 }  // namespace
 
 IoStatus write_failure(const std::string& path, const std::string& reason) {
@@ -44,11 +60,8 @@ IoStatus AtomicFile::create(const std::string& path) {
   if (path.empty() || path.find('\0') != std::string::npos) return write_failure(path, "not a file name");
 
   std::error_code code;
-  fs::path target = path;
-  if (fs::is_symlink(target, code)) {
-    target = fs::weakly_canonical(target, code);
-    if (code) return write_failure(path, code.message());
-  }
+  const fs::path target = follow_links(path, code);
+  if (code) return write_failure(path, code.message());
   const fs::file_status existing = fs::status(target, code);
   if (existing.type() == fs::file_type::none) return write_failure(path, code.message());
   if (fs::exists(existing)) {

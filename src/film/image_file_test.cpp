@@ -143,6 +143,28 @@ TEST_F(AtomicFileTest, FollowsSymbolicLinks) {
   EXPECT_EQ(text_of("elsewhere/real.png"), "new");
 }
 
+TEST_F(AtomicFileTest, FollowsSymbolicLinksToFilesThatAreStillToCome) {
+  fs::create_directory(folder_ / "elsewhere");
+  fs::create_symlink("elsewhere/second.png", folder_ / "first.png");
+  fs::create_symlink("third.png", folder_ / "elsewhere/second.png");
+  AtomicFile file;
+  ASSERT_TRUE(file.create(path("first.png")));
+  file.write("new", 3);
+  EXPECT_TRUE(file.commit());
+  EXPECT_TRUE(fs::is_symlink(folder_ / "first.png"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "elsewhere/second.png"));
+  EXPECT_EQ(text_of("elsewhere/third.png"), "new");
+}
+
+TEST_F(AtomicFileTest, RefusesSymbolicLinksThatLeadNowhere) {
+  fs::create_symlink("b.png", folder_ / "a.png");
+  fs::create_symlink("a.png", folder_ / "b.png");
+  fs::create_symlink("missing/x.png", folder_ / "c.png");
+  AtomicFile file;
+  EXPECT_THAT(file.create(path("a.png")).error, HasSubstr("Too many levels of symbolic links"));
+  EXPECT_THAT(file.create(path("c.png")).error, HasSubstr("there is no folder '" + path("missing") + "'"));
+}
+
 TEST_F(AtomicFileTest, ObeysTheUmask) {
   const mode_t old = umask(027);
   AtomicFile file;

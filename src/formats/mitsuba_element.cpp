@@ -12,10 +12,7 @@ SourceLocation Literal::location(std::size_t offset, std::size_t length) const {
   return verbatim ? document->location({span.offset + offset, length}) : location();
 }
 
-std::string Literal::quote(std::string_view piece) const {
-  if (verbatim) return quoted(piece);
-  return fmt::format("{} (from {})", quoted(piece), quoted(document->source().text().substr(span.offset, span.length)));
-}
+std::string Literal::quote(std::string_view piece) const { return quoted(piece) + origin; }
 
 const Literal* Element::find(std::string_view attribute) const {
   const auto named = [attribute](const Literal& literal) { return literal.name == attribute; };
@@ -51,9 +48,15 @@ Element open_element(const XmlDocument& document, pugi::xml_node node, const Att
                         fmt::format("attribute '{}' is given twice", attribute.name), "each attribute once");
       continue;
     }
-    Literal literal{std::string(attribute.name), std::string(attribute.value), &document, attribute.value_span, true};
+    Literal literal{
+        std::string(attribute.name), std::string(attribute.value), &document, attribute.value_span, true, {}};
     if (!parameters.fill_in(literal.text, literal.location())) element.good = false;
-    literal.verbatim = literal.text == document.source().text().substr(literal.span.offset, literal.span.length);
+    const std::string_view raw = literal.raw();
+    literal.verbatim = literal.text == raw;
+    if (!literal.verbatim) {
+      const std::string set_by = parameters.set_by(raw);
+      literal.origin = fmt::format(" (from {}{}{})", quoted(raw), set_by.empty() ? "" : ", set by ", shortened(set_by));
+    }
     element.attributes.push_back(std::move(literal));
   }
   // An unknown attribute is most likely the missing one, misspelt: one complaint is enough.

@@ -18,11 +18,13 @@ struct Literal {
   const XmlDocument* document = nullptr;
   XmlSpan span;          ///< of the value
   bool verbatim = true;  ///< whether `text` is what the file says, byte for byte
+  std::string origin;    ///< where it is not: " (from '$fov')" or " (from '$fov', set by -Dfov=abc)"
 
   SourceLocation location() const { return document->location(span); }
+  std::string_view raw() const { return document->source().text().substr(span.offset, span.length); }
   /// Of a piece of `text`; of all of it if the file says something else.
   SourceLocation location(std::size_t offset, std::size_t length) const;
-  /// A piece of `text` in quotes, with the file's own words if they differ: 'abc' (from '$fov').
+  /// A piece of `text` in quotes, with its origin: 'abc' (from '$fov').
   std::string quote(std::string_view piece) const;
 };
 

@@ -200,5 +200,24 @@ room.xml:5:14: error: nothing has the id 'missing'
 accepted: an id of the scene, which has none)");
 }
 
+TEST(MitsubaElement, APathIsAFolder) {
+  EXPECT_EQ(complaints_about(TestFiles{{"room.xml", R"(<scene version="3.0.0">
+  <path value="a.obj"/>
+</scene>)"},
+                                       {"a.obj", ""}}),
+            R"(room.xml:2:16: error: 'a.obj' is not a folder
+    2 |   <path value="a.obj"/>
+      |                ^~~~~
+accepted: an existing folder, relative to this file)");
+}
+
+TEST(MitsubaElement, WarnsOfNewerVersions) {
+  EXPECT_EQ(complaints_about(R"(<scene version="4.1.0"/>)"),
+            R"(room.xml:1:17: warning: the scene is for Mitsuba '4.1.0', which may mean other things
+    1 | <scene version="4.1.0"/>
+      |                 ^~~~~
+accepted: 2.x and 3.x)");
+}
+
 }  // namespace
 }  // namespace norrsken

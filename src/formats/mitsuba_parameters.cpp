@@ -26,6 +26,7 @@ SceneParameters::SceneParameters(const std::vector<std::pair<std::string, std::s
     bool created = false;
     Entry& entry = entries_[entry_of(name, created)];
     entry.value = value;
+    entry.set_by = "-D" + name + "=" + value;
     entry.overridden = true;
   }
 }
@@ -46,11 +47,24 @@ void SceneParameters::mark_defined(std::size_t index) {
   entries_[index].defined = true;
 }
 
-void SceneParameters::define(const std::string& name, const std::string& value) {
+void SceneParameters::define(const std::string& name, const std::string& value, std::string_view raw) {
   bool created = false;
   const std::size_t index = entry_of(name, created);
-  if (created) entries_[index].value = value;
+  if (created) {
+    entries_[index].value = value;
+    entries_[index].set_by = set_by(raw);
+  }
   mark_defined(index);
+}
+
+std::string SceneParameters::set_by(std::string_view raw) const {
+  for (std::size_t dollar = raw.find('$'); dollar != std::string_view::npos; dollar = raw.find('$', dollar + 1)) {
+    const std::string_view rest = raw.substr(dollar + 1);
+    const auto end = std::find_if_not(rest.begin(), rest.end(), is_name_character);
+    const auto entry = index_.find(std::string(rest.begin(), end));
+    if (entry != index_.end() && !entries_[entry->second].set_by.empty()) return entries_[entry->second].set_by;
+  }
+  return {};
 }
 
 bool SceneParameters::fill_in(std::string& text, const SourceLocation& location) {
@@ -73,7 +87,7 @@ bool SceneParameters::fill_in(std::string& text, const SourceLocation& location)
       for (const Entry& known : entries_) defined.push_back("$" + known.name);
       diagnostics_.error(location,
                          fmt::format("undefined parameter {}{}", quoted("$" + name), did_you_mean("$" + name, defined)),
-                         defined.empty() ? "a <default> before its use, or -D" + name + "=..." : join(defined));
+                         defined.empty() ? "a <default> before its use, or -D" + name + "=..." : listed(defined));
       return false;
     }
     mark_defined(found->second);
@@ -101,7 +115,7 @@ void SceneParameters::finish() const {
     diagnostics_.error({},
                        fmt::format("-D{}: the scene does not use a parameter {}{}", entry.name,
                                    quoted("$" + entry.name), did_you_mean(entry.name, used)),
-                       used.empty() ? "no -D: the scene has no parameters" : join(used));
+                       used.empty() ? "no -D: the scene has no parameters" : listed(used));
   }
 }
 

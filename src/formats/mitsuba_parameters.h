@@ -19,11 +19,14 @@ class SceneParameters {
  public:
   SceneParameters(const std::vector<std::pair<std::string, std::string>>& overrides, Diagnostics& diagnostics);
 
-  /// `<default>`. The first definition wins, and an override wins over all.
-  void define(const std::string& name, const std::string& value);
+  /// `<default>`. The first definition wins, and an override wins over all. `raw` is the value before it was filled in.
+  void define(const std::string& name, const std::string& value, std::string_view raw);
 
   /// Replaces every `$name` in `text`. False after a complaint: undefined, no name, or grown beyond all measure.
   bool fill_in(std::string& text, const SourceLocation& location);
+
+  /// The override that decides what becomes of `raw`, through defaults made of others too: "-Dspp=0"; or nothing.
+  std::string set_by(std::string_view raw) const;
 
   /// Complains about overrides that were never used.
   void finish() const;
@@ -36,6 +39,7 @@ class SceneParameters {
  private:
   struct Entry {
     std::string name, value;
+    std::string set_by = {};
     bool overridden = false, defined = false, used = false;
   };
   /// The entry of that name; `created` is told whether it is a new one.

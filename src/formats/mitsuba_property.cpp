@@ -23,13 +23,15 @@ std::optional<Property::Spectrum> read_spectrum_element(const MitsubaContext& co
   const std::string path = resolve_file(context.files, filename->text, document.source().path(), context.search_paths);
   if (path.empty()) {
     context.diagnostics.error(filename->location(), fmt::format("there is no file {}", filename->quote(filename->text)),
-                              context.searched_folders(document));
+                              context.accepted_files(document, filename->text));
     return std::nullopt;
   }
   std::string error;
   const auto contents = context.files.read(path, error);
+  context.diagnostics.named_at(path, filename->location());
   if (contents) return read_spectrum_file(SourceText(path, *contents), context.diagnostics);
-  context.diagnostics.error(filename->location(), fmt::format("cannot read {}: {}", quoted(path, 200), error));
+  context.diagnostics.error(filename->location(), fmt::format("cannot read {}: {}", quoted(path, 200), error),
+                            "a text file of wavelengths and values");
   return std::nullopt;
 }
 
@@ -92,8 +94,8 @@ void MitsubaContext::refuse_contents(const XmlDocument& document, pugi::xml_node
                       fmt::format("<{} .../>", node.name()));
 }
 
-std::string MitsubaContext::searched_folders(const XmlDocument& document) const {
-  return "a file in " + norrsken::searched_folders(document.source().path(), search_paths);
+std::string MitsubaContext::accepted_files(const XmlDocument& document, const std::string& name) const {
+  return norrsken::accepted_files(name, document.source().path(), search_paths);
 }
 
 const std::vector<std::string>& value_types() {
@@ -116,6 +118,9 @@ std::optional<Property> read_property(MitsubaContext& context, const XmlDocument
   property.location = element.location;
   for (const char* name : {"x", "filename", "value"}) {
     if (const Literal* value = element.find(name)) property.location = value->location();
+  }
+  for (const Literal& attribute : element.attributes) {
+    if (attribute.name != "name" && property.origin.empty()) property.origin = attribute.origin;
   }
   if (property.type != "transform") context.refuse_contents(document, xml);
   if (!element.good || !fill(property, context, document, xml, element)) return std::nullopt;

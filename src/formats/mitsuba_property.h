@@ -26,8 +26,8 @@ struct MitsubaContext {
   }
   /// Complains if there is anything inside the element.
   void refuse_contents(const XmlDocument& document, pugi::xml_node node) const;
-  /// Where a file named in this document is looked for, for a complaint.
-  std::string searched_folders(const XmlDocument& document) const;
+  /// For a complaint about a file named in this document that there is not.
+  std::string accepted_files(const XmlDocument& document, const std::string& name) const;
   /// Whether there are so many complaints that going on is of no use.
   bool gave_up() const { return diagnostics.error_count() >= 100; }
 };

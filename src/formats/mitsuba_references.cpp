@@ -16,8 +16,6 @@ namespace {
 constexpr int kMaxHeight = 200;
 // How often an alias may stand for another one.
 constexpr int kMaxAliases = 16;
-// How many ids a complaint lists.
-constexpr std::size_t kMaxListed = 20;
 
 void drop_empty_children(Node& node) {
   std::erase_if(node.children, [](const Node::Child& child) { return child.node == nullptr; });
@@ -74,10 +72,7 @@ std::vector<std::string> References::known() const {
 
 bool References::resolve(const Node& root) {
   const std::vector<std::string> ids = known();
-  std::vector<std::string> listed(ids.begin(),
-                                  ids.begin() + static_cast<std::ptrdiff_t>(std::min(ids.size(), kMaxListed)));
-  if (listed.size() < ids.size()) listed.emplace_back("...");
-  const std::string accepted = ids.empty() ? "an id of the scene, which has none" : join(listed);
+  const std::string accepted = ids.empty() ? "an id of the scene, which has none" : listed(ids);
 
   std::unordered_set<std::string> complained;
   const auto complain = [&](const std::string& id, const SourceLocation& location) {
@@ -129,7 +124,8 @@ bool References::check_shape(const Node& root) const {
       diagnostics_.error(last_reference(circle), "this reference leads back to itself", "references without circles");
       return false;
     } else if (child.node && height->second >= kMaxHeight) {
-      diagnostics_.error(child.location, fmt::format("references lead more than {} levels deep", kMaxHeight));
+      diagnostics_.error(child.location, fmt::format("references lead more than {} levels deep", kMaxHeight),
+                         fmt::format("up to {} levels", kMaxHeight));
       return false;
     } else if (child.node) {
       step.height = std::max(step.height, height->second + 1);

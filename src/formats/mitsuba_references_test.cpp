@@ -66,7 +66,7 @@ TEST(ParameterErrors, WrongValueFromTheCommandLine) {
   <float name="fov" value="$fov"/>
 </scene>)",
                              {{"fov", "wide"}}),
-            R"(room.xml:3:28: error: 'wide' (from '$fov') is not a number
+            R"(room.xml:3:28: error: 'wide' (from '$fov', set by -Dfov=wide) is not a number
     3 |   <float name="fov" value="$fov"/>
       |                            ^~~~
 accepted: a number such as 1.5 or -2e3)");
@@ -129,16 +129,17 @@ accepted: a file that does not)");
 }
 
 TEST(FileErrors, IncludesInARing) {
-  EXPECT_EQ(complaints_about(TestFiles{{"room.xml", R"(<scene version="3.0.0">
+  EXPECT_EQ(
+      complaints_about(TestFiles{{"room.xml", R"(<scene version="3.0.0">
   <include filename="parts/a.xml"/>
 </scene>)"},
-                                       {"parts/a.xml", R"(<scene version="3.0.0">
+                                 {"parts/a.xml", R"(<scene version="3.0.0">
   <include filename="b.xml"/>
 </scene>)"},
-                                       {"parts/b.xml", R"(<scene version="3.0.0">
+                                 {"parts/b.xml", R"(<scene version="3.0.0">
   <include filename="../parts/./a.xml"/>
 </scene>)"}}),
-            R"(parts/b.xml:2:22: error: the file includes itself: parts/a.xml -> parts/b.xml -> parts/a.xml
+      R"(parts/b.xml:2:22: error: the file includes itself: parts/a.xml -> parts/b.xml -> parts/a.xml (named at parts/a.xml:2:22)
     2 |   <include filename="../parts/./a.xml"/>
       |                      ^~~~~~~~~~~~~~~~
 accepted: a file that does not)");
@@ -151,7 +152,7 @@ TEST(FileErrors, ErrorInAnIncludedFile) {
                                        {"a.xml", R"(<scene version="3.0.0">
   <bsfd/>
 </scene>)"}}),
-            R"(a.xml:2:3: error: unknown element 'bsfd', did you mean 'bsdf'?
+            R"(a.xml:2:3: error: unknown element 'bsfd', did you mean 'bsdf'? (named at room.xml:2:22)
     2 |   <bsfd/>
       |   ^~~~~
 accepted: alias, boolean, bsdf, default, emitter, film, float, include, integer, integrator, medium, path, phase, point, ref, rfilter, rgb, sampler, sensor, shape, spectrum, string, texture, transform, vector, volume)");
@@ -162,7 +163,7 @@ TEST(FileErrors, IncludedFileWithAnotherRoot) {
   <include filename="a.xml"/>
 </scene>)"},
                                        {"a.xml", "<materials/>"}}),
-            R"(a.xml:1:1: error: the root element is <materials>
+            R"(a.xml:1:1: error: the root element is <materials> (named at room.xml:2:22)
     1 | <materials/>
       | ^~~~~~~~~~
 accepted: <scene>, or an object such as <bsdf>)");
@@ -176,7 +177,7 @@ TEST(FileErrors, IncludesTooDeep) {
     files["a" + std::to_string(i) + ".xml"] =
         "<scene version=\"3.0.0\"><include filename=\"a" + std::to_string(i + 1) + ".xml\"/></scene>";
   EXPECT_EQ(complaints_about(files),
-            R"(a15.xml:1:43: error: too many includes
+            R"(a15.xml:1:43: error: too many includes (named at a14.xml:1:43)
     1 | <scene version="3.0.0"><include filename="a16.xml"/></scene>
       |                                           ^~~~~~~
 accepted: up to 16 inside each other, 10000 in all)");

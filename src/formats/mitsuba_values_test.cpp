@@ -182,19 +182,19 @@ TEST(ValueErrors, SpectrumFiles) {
     2 |   <spectrum name="a" filename="missing.spd"/>
       |                                ^~~~~~~~~~~
 accepted: a file in the current folder
-wide.spd:1:1: error: 3 numbers on a line
+wide.spd:1:1: error: 3 numbers on a line (named at room.xml:3:32)
     1 | 400 1 2
       | ^~~~~~~
 accepted: a wavelength in nm and a value on each line, # for comments
-word.spd:3:5: error: 'one' is not a number
+word.spd:3:5: error: 'one' is not a number (named at room.xml:4:32)
     3 | 500 one
       |     ^~~
 accepted: a wavelength in nm and a value on each line, # for comments
-order.spd:2:1: error: '400' is not above the wavelength before it
+order.spd:2:1: error: '400' is not above the wavelength before it (named at room.xml:5:32)
     2 | 400 1
       | ^~~
 accepted: wavelengths in nm, ascending
-none.spd: error: the file has no spectrum
+none.spd: error: the file has no spectrum (named at room.xml:6:32)
 accepted: a wavelength in nm and a value on each line, # for comments)");
 }
 

@@ -90,6 +90,7 @@ class MitsubaReader {
       return fail(std::move(location), "the scene's XML is too large",
                   fmt::format("up to {} MiB, all includes together", kMaxXmlBytes >> 20));
     }
+    diagnostics_.named_at(path, named_at);
     const auto document = XmlDocument::parse(path, std::move(*contents), diagnostics_);
     if (!document) {
       complete_ = false;
@@ -131,7 +132,9 @@ class MitsubaReader {
       return false;
     }
     if (major > 3)
-      diagnostics_.warning(version.location(), fmt::format("the scene is for Mitsuba {}", quoted(text)), "2.x and 3.x");
+      diagnostics_.warning(version.location(),
+                           fmt::format("the scene is for Mitsuba {}, which may mean other things", quoted(text)),
+                           "2.x and 3.x");
     return true;
   }
 
@@ -151,7 +154,8 @@ class MitsubaReader {
   void read_node(const XmlDocument& document, pugi::xml_node node, Scope& into, int depth) {
     const std::string_view name = node.name();
     if (depth > kMaxDepth)
-      return fail(document.location(node), fmt::format("elements are nested more than {} deep", kMaxDepth));
+      return fail(document.location(node), fmt::format("elements are nested more than {} deep", kMaxDepth),
+                  fmt::format("up to {} inside each other", kMaxDepth));
     const bool plain_spectrum = name == "spectrum" && !node.attribute("type");
     if (contains(kObjects, name) && !plain_spectrum) return read_object(document, node, into, depth);
     if (contains(value_types(), name)) return read_value(document, node, into);
@@ -228,7 +232,8 @@ class MitsubaReader {
     const Literal& name = *element.find("name");
     if (SceneParameters::is_name(name.text)) {
       // Also after a complaint about the value: the name is known, its uses are not to blame.
-      context_.parameters.define(name.text, element.text("value"));
+      const Literal* value = element.find("value");
+      context_.parameters.define(name.text, element.text("value"), value ? value->raw() : std::string_view());
     } else {
       diagnostics_.error(name.location(), fmt::format("{} cannot be the name of a parameter", name.quote(name.text)),
                          "letters, digits and _");
@@ -249,6 +254,9 @@ class MitsubaReader {
     if (folder.empty()) {
       diagnostics_.error(value.location(), fmt::format("there is no folder {}", value.quote(value.text)),
                          "an existing folder, relative to this file");
+    } else if (!context_.files.is_folder(folder)) {
+      diagnostics_.error(value.location(), fmt::format("{} is not a folder", value.quote(value.text)),
+                         "an existing folder, relative to this file");
     } else {
       context_.search_paths.push_back(folder);
     }
@@ -266,7 +274,7 @@ class MitsubaReader {
         resolve_file(context_.files, filename.text, document.source().path(), context_.search_paths);
     if (path.empty())
       return fail(filename.location(), fmt::format("there is no file {}", filename.quote(filename.text)),
-                  context_.searched_folders(document));
+                  context_.accepted_files(document, filename.text));
     const std::string key = normal_path(path);
     const auto is_same = [&key](const std::string& open) { return normal_path(open) == key; };
     if (const auto open = std::find_if(open_files_.begin(), open_files_.end(), is_same); open != open_files_.end()) {

@@ -35,6 +35,7 @@ struct Property {
   std::string name;
   std::variant<bool, std::int64_t, double, std::string, Rgb, Spectrum, Vector, Transform> value;
   std::string type;              ///< the word the file used: "float", "rgb", ...
+  std::string origin;            ///< for a complaint, where it is of `$parameters`: " (from '$fov', set by -Dfov=0)"
   SourceLocation location;       ///< of the value
   SourceLocation name_location;  ///< of the name
 };

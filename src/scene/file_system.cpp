@@ -154,15 +154,29 @@ std::string resolve_file(const FileSystem& files, const std::string& name, const
   return {};
 }
 
-std::string searched_folders(const std::string& beside, const std::vector<std::string>& search_paths) {
+std::string accepted_files(const std::string& name, const std::string& beside,
+                           const std::vector<std::string>& search_paths) {
+  constexpr std::size_t kMaxPathBytes = 200;
+  const auto builtin_below = [](const std::string& folder, std::size_t strip) {
+    std::vector<std::string> found;
+    for (const auto& [path, contents] : builtin_files()) {
+      const std::string full = std::string(kBuiltin).append(path);
+      if (full.starts_with(folder)) found.push_back(full.substr(strip));
+    }
+    return listed(found, kMaxPathBytes);
+  };
+  if (is_builtin(name)) return builtin_below(std::string(kBuiltin), 0);
+  if (name.starts_with('/')) return "the path of an existing file";
   std::vector<std::string> folders{folder_of(beside)};
   for (const std::string& folder : search_paths) {
     if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
   }
+  std::string builtin;
   for (std::string& folder : folders) {
+    if (is_builtin(folder) && builtin.empty()) builtin = builtin_below(folder, folder.size());
     if (folder.empty()) folder = "the current folder";
   }
-  return join(folders);
+  return "a file in " + listed(folders, kMaxPathBytes) + (builtin.empty() ? "" : ": " + builtin);
 }
 
 }  // namespace norrsken

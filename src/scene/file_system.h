@@ -32,8 +32,9 @@ std::string normal_path(const std::string& path);
 std::string resolve_file(const FileSystem& files, const std::string& name, const std::string& beside,
                          const std::vector<std::string>& search_paths);
 
-/// The folders that `resolve_file` looks into, for a complaint: "dir/, lib".
-std::string searched_folders(const std::string& beside, const std::vector<std::string>& search_paths);
+/// What `resolve_file` would have found, for a complaint: "a file in dir/, lib"; of built-in files, which there are.
+std::string accepted_files(const std::string& name, const std::string& beside,
+                           const std::vector<std::string>& search_paths);
 
 /// Files compiled in: (path below scenes/, contents).
 std::vector<std::pair<std::string_view, std::string_view>> builtin_files();

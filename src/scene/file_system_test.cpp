@@ -118,5 +118,15 @@ TEST(ResolveFile, StaysWithinTheBuiltinScene) {
   EXPECT_EQ(resolve_file(files, "room/room.xml", "builtin:x.xml", {}), "builtin:room/room.xml");
 }
 
+TEST(AcceptedFiles, NameTheFoldersAndTheBuiltInFiles) {
+  EXPECT_EQ(accepted_files("a.obj", "room.xml", {"", "lib"}), "a file in the current folder, lib");
+  EXPECT_EQ(accepted_files("a.obj", "dir/room.xml", {"dir/", "lib"}), "a file in dir/, lib");
+  EXPECT_EQ(accepted_files("/a.obj", "dir/room.xml", {}), "the path of an existing file");
+  EXPECT_EQ(accepted_files("builtin:a.obj", "dir/room.xml", {}), "builtin:room/room.xml, builtin:room/parts/wall.obj");
+  EXPECT_EQ(accepted_files("a.obj", "builtin:room/parts/room.xml", {"builtin:room/"}),
+            "a file in builtin:room/parts/, builtin:room/: wall.obj");
+  EXPECT_EQ(accepted_files("a.obj", "builtin:room/room.xml", {}), "a file in builtin:room/: room.xml, parts/wall.obj");
+}
+
 }  // namespace
 }  // namespace norrsken

@@ -31,17 +31,21 @@ std::string name_of(const Node& node) {
   return node.plugin.empty() ? node.kind : fmt::format("{} {}", node.kind, quoted(node.plugin));
 }
 
-template <typename Number>
-std::string range_text(std::string_view noun, Number min, Number max, bool has_min, bool has_max) {
-  if (has_min && has_max) return fmt::format("{} from {} to {}", noun, min, max);
-  if (has_min) return fmt::format("{} of at least {}", noun, min);
-  if (has_max) return fmt::format("{} of at most {}", noun, max);
-  return std::string(noun);
+std::string range_text(std::string_view noun, std::string_view lower, std::string_view upper, bool has_min,
+                       bool has_max, Ends ends) {
+  if (has_min && has_max && ends == Ends::closed) return fmt::format("{} from {} to {}", noun, lower, upper);
+  const std::string_view below = ends == Ends::open ? "below" : "at most";
+  std::string text(noun);
+  if (has_min) text += fmt::format(" {} {}", ends == Ends::closed ? "of at least" : "above", lower);
+  if (has_max && has_min) text += fmt::format(" and {} {}", below, upper);
+  if (has_max && !has_min) text += fmt::format(" {}{} {}", ends == Ends::open ? "" : "of ", below, upper);
+  return text;
 }
 
-// Bounds that only say "what a float holds" are worth a mention only to someone who went beyond them.
-std::string number_range(std::string_view noun, double min, double max, double value) {
-  return range_text(noun, min, max, min > -kMaxNumber || value < -kMaxNumber, max < kMaxNumber || value > kMaxNumber);
+// Bounds that only say what the program can calculate with are worth a mention only to someone who went beyond them.
+std::string number_range(std::string_view noun, double min, double max, double value, Ends ends = Ends::closed) {
+  return range_text(noun, fmt::format("{:g}", min), fmt::format("{:g}", max), min > -kMaxCoordinate || value < min,
+                    max < kMaxCoordinate || value > max, ends);
 }
 
 std::vector<std::string> list(const std::set<std::string, std::less<>>& words) { return {words.begin(), words.end()}; }
@@ -113,20 +117,24 @@ std::int64_t Parameters::integer(std::string_view name, std::int64_t fallback, s
   const std::int64_t value = std::get<std::int64_t>(property->value);
   if (value >= min && value <= max) return value;
   using Limits = std::numeric_limits<std::int64_t>;
-  error(name, fmt::format("'{}' is {}", name, value),
-        range_text("an integer", min, max, min != Limits::min(), max != Limits::max()));
+  error(name, fmt::format("'{}' is {}{}", name, value, property->origin),
+        range_text("an integer", std::to_string(min), std::to_string(max), min != Limits::min(), max != Limits::max(),
+                   Ends::closed));
   return fallback;
 }
 
-double Parameters::number(std::string_view name, double fallback, double min, double max) {
+double Parameters::number(std::string_view name, double fallback, double min, double max, Ends ends) {
   const Property* property = find_as<double, std::int64_t>(name, "float");
   if (!property) return fallback;
   const double* real = std::get_if<double>(&property->value);
   const double value = real ? *real : static_cast<double>(std::get<std::int64_t>(property->value));
   min = std::max(min, -kMaxNumber);
   max = std::min(max, kMaxNumber);
-  if (value >= min && value <= max) return value;
-  error(name, fmt::format("'{}' is {}", name, value), number_range("a number", min, max, value));
+  const bool is_above = ends == Ends::closed ? value >= min : value > min;
+  const bool is_below = ends == Ends::open ? value < max : value <= max;
+  if (is_above && is_below) return value;
+  error(name, fmt::format("'{}' is {}{}", name, value, property->origin),
+        number_range("a number", min, max, value, ends));
   return fallback;
 }
 
@@ -142,7 +150,8 @@ std::string Parameters::choice(std::string_view name, std::string_view fallback,
   if (!property) return std::string(fallback);
   const std::string& value = std::get<std::string>(property->value);
   if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
-  error(name, fmt::format("'{}' is {}{}", name, quoted(value), did_you_mean(value, choices)), join(choices));
+  error(name, fmt::format("'{}' is {}{}{}", name, quoted(value), property->origin, did_you_mean(value, choices)),
+        join(choices));
   return std::string(fallback);
 }
 
@@ -156,7 +165,7 @@ glm::dvec3 Parameters::color(std::string_view name, glm::dvec3 fallback, double 
   if (const auto* spectrum = std::get_if<Property::Spectrum>(&property->value)) {
     for (const auto& [wavelength, value] : spectrum->samples) {
       if (value >= min && value <= max) continue;
-      error(name, fmt::format("'{}' has a value of {}", name, value),
+      error(name, fmt::format("'{}' has a value of {}{}", name, value, property->origin),
             number_range("a spectrum with values", min, max, value));
       return fallback;
     }
@@ -175,7 +184,7 @@ glm::dvec3 Parameters::color(std::string_view name, glm::dvec3 fallback, double 
   }
   for (int i = 0; i < 3; ++i) {
     if (value[i] >= min && value[i] <= max) continue;
-    error(name, fmt::format("'{}' is ({}, {}, {})", name, value.x, value.y, value.z),
+    error(name, fmt::format("'{}' is ({}, {}, {}){}", name, value.x, value.y, value.z, property->origin),
           number_range("components", min, max, value[i]));
     return fallback;
   }
@@ -188,7 +197,7 @@ glm::dvec3 Parameters::point(std::string_view name, glm::dvec3 fallback) {
   const glm::dvec3 value = std::get<Property::Vector>(property->value).value;
   for (int i = 0; i < 3; ++i) {
     if (std::abs(value[i]) <= kMaxCoordinate) continue;
-    error(name, fmt::format("'{}' is ({}, {}, {})", name, value.x, value.y, value.z),
+    error(name, fmt::format("'{}' is ({}, {}, {}){}", name, value.x, value.y, value.z, property->origin),
           fmt::format("coordinates from {:g} to {:g}", -kMaxCoordinate, kMaxCoordinate));
     return fallback;
   }
@@ -217,8 +226,8 @@ std::string Parameters::file(std::string_view name) {
   const std::string& value = std::get<std::string>(property->value);
   const std::string path = resolve_file(files_, value, property->location.file, description_.search_paths);
   if (!path.empty()) return path;
-  error(name, fmt::format("there is no file {}", quoted(value, 200)),
-        "a file in " + searched_folders(property->location.file, description_.search_paths));
+  error(name, fmt::format("there is no file {}{}", quoted(value, 200), property->origin),
+        accepted_files(value, property->location.file, description_.search_paths));
   return {};
 }
 

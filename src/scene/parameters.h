@@ -14,6 +14,9 @@ namespace norrsken {
 
 class FileSystem;
 
+/// Whether the bounds of a range belong to it.
+enum class Ends { closed, open_below, open };
+
 /// A plugin asks for its parameters by name; what it asks for is what is accepted. Every complaint (wrong type, out of
 /// range, not finite, missing) goes to the diagnostics and the default is returned, so that reading goes on.
 /// `finish` complains about what was given but never asked for.
@@ -28,8 +31,8 @@ class Parameters {
   bool boolean(std::string_view name, bool fallback);
   /// Inclusive bounds.
   std::int64_t integer(std::string_view name, std::int64_t fallback, std::int64_t min, std::int64_t max);
-  /// Also takes an integer. Inclusive bounds; always finite.
-  double number(std::string_view name, double fallback, double min, double max);
+  /// Also takes an integer. Always finite.
+  double number(std::string_view name, double fallback, double min, double max, Ends ends = Ends::closed);
   std::string text(std::string_view name, std::string_view fallback);
   /// One of the words; otherwise an error that lists them.
   std::string choice(std::string_view name, std::string_view fallback, std::initializer_list<std::string_view> words);

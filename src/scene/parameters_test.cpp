@@ -251,5 +251,20 @@ TEST_F(ParametersTest, PluginsWithoutParametersSaySo) {
   EXPECT_EQ(complaint(), "3: unused parameter 'x' of bsdf 'diffuse' (accepted: no parameters)");
 }
 
+TEST_F(ParametersTest, BoundsThatDoNotBelongToTheRange) {
+  give<double>("low", "float", 0);
+  give<double>("high", "float", 180);
+  give<double>("huge", "float", 1e20);
+  give<double>("inside", "float", 180);
+  Parameters p = parameters();
+  EXPECT_EQ(p.number("low", 7, 0, kMaxCoordinate, Ends::open_below), 7);
+  EXPECT_EQ(p.number("high", 7, 0, 180, Ends::open), 7);
+  EXPECT_EQ(p.number("huge", 7, 0, kMaxCoordinate, Ends::open_below), 7);
+  EXPECT_EQ(p.number("inside", 7, 0, 180, Ends::open_below), 180);
+  EXPECT_EQ(complaint(),
+            "2: 'low' is 0 (accepted: a number above 0); 2: 'high' is 180 (accepted: a number above 0 and below 180); "
+            "2: 'huge' is 1e+20 (accepted: a number above 0 and at most 1e+15)");
+}
+
 }  // namespace
 }  // namespace norrsken

@@ -54,7 +54,7 @@ bool move_to_world(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(moved[axis]) <= kMaxCoordinate) continue;
       p.error("to_world", fmt::format("a vertex is at ({:.6g}, {:.6g}, {:.6g})", moved.x, moved.y, moved.z),
-              fmt::format("coordinates from {} to {}", -kMaxCoordinate, kMaxCoordinate));
+              fmt::format("coordinates from {:g} to {:g}", -kMaxCoordinate, kMaxCoordinate));
       return false;
     }
     position = to_float(moved);
@@ -137,9 +137,11 @@ std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, 
   std::string problem;
   const std::optional<std::string> bytes = builder.files().read(path, problem);
   if (!bytes) {
-    p.error("filename", fmt::format("cannot read {}: {}", quoted(path, 200), problem));
+    p.error("filename", fmt::format("cannot read {}: {}", quoted(path, 200), problem),
+            fmt::format("a readable {} file", p.node().plugin));
     return std::nullopt;
   }
+  builder.diagnostics().named_at(path, p.where("filename"));
   std::optional<MeshData> mesh = read(*bytes, path, builder.diagnostics());
   if (!mesh) return std::nullopt;
   if (face_normals) mesh->normals.clear();

@@ -103,7 +103,7 @@ TEST(Sphere, RefusesRadiiThatMakeNoSphere) {
   EXPECT_THAT(compile_shape(sphere(R"(<float name="radius" value="0"/>)")).messages(),
               ElementsAre("error: 'radius' is 0 [a number above 0]"));
   EXPECT_THAT(compile_shape(sphere(R"(<float name="radius" value="-1"/>)")).messages(),
-              ElementsAre("error: 'radius' is -1 [a number from 0 to 1000000000000000]"));
+              ElementsAre("error: 'radius' is -1 [a number above 0]"));
   EXPECT_THAT(compile_shape(sphere(R"(<float name="radius" value="1e-60"/>)")).messages(),
               ElementsAre("error: the sphere's radius of 1e-60 is too small to be told from 0"));
   EXPECT_FALSE(
@@ -135,7 +135,7 @@ TEST(ShapeHost, RefusesWhatDoesNotBelongIntoAShape) {
   EXPECT_THAT(compile_shape(sphere(sphere(""))).messages(),
               ElementsAre("error: unused shape 'sphere' in shape 'sphere' [bsdf, emitter]"));
   EXPECT_THAT(compile_shape(sphere(R"(<medium type="homogeneous" name="interior"/>)")).messages(),
-              ElementsAre("error: medium 'homogeneous' is not supported yet"));
+              ElementsAre("error: medium 'homogeneous' is not supported yet [a scene without medium]"));
   EXPECT_THAT(compile_shape(sphere(R"(<bsdf type="diffuse"/><bsdf type="diffuse"/>)")).messages(),
               ElementsAre("error: shape 'sphere' has more than one bsdf [one bsdf]"));
   EXPECT_THAT(compile_shape(R"(<shape type="cube"/>)").messages(),

@@ -36,11 +36,7 @@ bool scales_uniformly(const glm::dmat3& linear, double scale) {
 
 std::optional<ShapeGeometry> compile_shape_sphere(Parameters& p, Builder& builder) {
   const glm::dvec3 center = p.point("center", glm::dvec3(0));
-  double radius = p.number("radius", 1, 0, kMaxCoordinate);
-  if (radius == 0) {
-    p.error("radius", "'radius' is 0", "a number above 0");
-    radius = 1;
-  }
+  const double radius = p.number("radius", 1, 0, kMaxCoordinate, Ends::open_below);
   const glm::dmat4 to_world = p.transform("to_world");
   const bool flip_normals = p.boolean("flip_normals", false);
 
@@ -57,7 +53,7 @@ std::optional<ShapeGeometry> compile_shape_sphere(Parameters& p, Builder& builde
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(world_center[axis]) <= kMaxCoordinate) || !(world_radius <= kMaxCoordinate)) {
       p.error("to_world", "the sphere is placed too far away or made too large",
-              fmt::format("coordinates up to {}", kMaxCoordinate));
+              fmt::format("coordinates up to {:g}", kMaxCoordinate));
       return std::nullopt;
     }
   }
