@@ -1,7 +1,8 @@
 // hdrfilm: the image's size and what becomes of its values.
 //
 // Parameters
-//   width, height     integers, pixels, 1 to 65536 (default 768 x 576), 2^28 pixels in all
+//   width, height     integers, pixels, 1 to 65536 (default 768 x 576), 2^28 pixels in all, and no more
+//                     than this machine has memory for, 100 bytes each
 //   file_format       openexr (default)
 //   pixel_format      rgb (default)
 //   component_format  float32 (default)
