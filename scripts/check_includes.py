@@ -24,7 +24,7 @@ DISPATCH = {"light/sample_lights.h"}
 
 # Headers of families that compute tables: for src/compile as well. (What only a family's own host files share is in a
 # header that ends in _host.)
-HOST_HEADERS = {"light/light_choice.h"}
+HOST_HEADERS = {"light/light_choice.h", "sampler/sampler_host.h"}
 
 # Host files of plugins that stand in a folder that is no family.
 HOST_PLUGINS = {"film/hdrfilm.cpp"}
