@@ -22,9 +22,9 @@ struct Comparison {
   /// (the variance of the mean); an image without them counts as exact. Pixel channels without variance on either side
   /// must be equal; those whose variance is unknown (NaN, infinite, negative) are left out.
   struct ZTest {
-    double passed_share = 0;   ///< share of pixel channels not rejected at the Sidak-corrected 1 % level
-    double mean_z[3] = {};     ///< z-score of the difference of the whole-image means, per channel
-    double rms_z = 0;          ///< root mean square of the pixel z-scores; 1 for honest variances and equal means
+    double passed_share = 0;  ///< share of pixel channels not rejected at the Sidak-corrected 1 % level
+    double mean_z[3] = {};    ///< z-score of the difference of the whole-image means, per channel
+    double rms_z = 0;         ///< root mean square of the pixel z-scores; 1 for honest variances and equal means
   };
   std::optional<ZTest> z_test;
 };

@@ -7,9 +7,10 @@
 //   fov_axis                  x (default), y, diagonal, smaller or larger: the side of the image that `fov` spans
 //   near_clip, far_clip       numbers above 0, scene units along the axis (default 0.01 and 10000): nothing nearer or
 //                             farther is seen
-//   principal_point_offset_x  number, share of the image's width (default 0): what is in the middle of the image
-//   without principal_point_offset_y  it moves left (up, in shares of the height) by as much to_world transform without
-//   scale; local +z is the direction of view, +y up and +x left
+//   principal_point_offset_x  number, share of the image's width (default 0): what is in the middle of the image without
+//                             it moves left by as much
+//   principal_point_offset_y  number, share of the image's height (default 0): the same, up
+//   to_world                  transform without scale; local +z is the direction of view, +y up and +x left
 // Children: film, sampler.
 // Measure: every film point has the same weight.
 #include <fmt/format.h>
