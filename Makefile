@@ -30,16 +30,17 @@ build:  ## install what is missing and build build/release/norrsken
 	cmake --build $(RELEASE) --target norrsken_program -j $(JOBS)
 
 .PHONY: test
-test: release-all  ## everything: warnings as errors, render, all tests, style, sanitizers
+test: release-all  ## warnings as errors, a render, all tests, the checks, the format
 	@mkdir -p out
 	$(RELEASE)/norrsken render hexagon_room -o out/hexagon_room.png $(ROOM_ARGS)
 	ctest --test-dir $(RELEASE) -j $(JOBS) --output-on-failure
 	scripts/check_format.sh
-	scripts/check_tidy.py --build $(RELEASE) -j $(JOBS)
-	$(MAKE) sanitize
+
+.PHONY: thorough
+thorough: test tidy sanitize  ## `test`, then clang-tidy and the sanitizers
 
 .PHONY: check
-check: release-all  ## the quick part of `test`: no slow tests, no clang-tidy, no sanitizers
+check: release-all  ## the quick part of `test`: no slow tests
 	ctest --test-dir $(RELEASE) -j $(JOBS) --output-on-failure -LE slow
 	scripts/check_format.sh
 

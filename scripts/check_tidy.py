@@ -61,10 +61,11 @@ def main():
             return subprocess.run(["clang-tidy", "--quiet", "-p", folder, str(path)], capture_output=True, text=True)
 
         failed = 0
-        for path, result in zip(chosen, pool.map(tidy, chosen)):
+        for future in concurrent.futures.as_completed(pool.submit(tidy, path) for path in chosen):
+            result = future.result()
             if result.returncode != 0:
                 failed += 1
-                print(result.stdout or result.stderr)
+                print(result.stdout or result.stderr, flush=True)
     if failed:
         sys.exit(f"clang-tidy: complaints about {failed} of {len(chosen)} files")
     print(f"clang-tidy: nothing to complain about in {len(chosen)} files")
