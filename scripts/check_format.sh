@@ -4,6 +4,6 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 mode=(--dry-run --Werror)
 [[ ${1:-} != --fix ]] || mode=(-i)
-find include src apps tests benchmarks fuzz -type f \( -name '*.h' -o -name '*.cpp' \) -print0 2>/dev/null |
+find include src apps tests benchmarks -type f \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 -r clang-format "${mode[@]}"
 [[ ${1:-} == --fix ]] || echo "format: as .clang-format says"
