@@ -96,9 +96,9 @@ const BenchScene& bench_sphere_mesh(int triangles, AccelKind kind) {
 
 BenchRays::BenchRays(const BenchScene& scene, bool coherent) {
   constexpr std::uint32_t kSide = 128, kCount = kSide * kSide;
-  block_.reset(static_cast<float*>(std::aligned_alloc(64, 8 * kCount * sizeof(float))));
+  block_.resize(8 * kCount);
   float* fields[8];
-  for (std::size_t k = 0; k < 8; ++k) fields[k] = block_.get() + k * kCount;
+  for (std::size_t k = 0; k < 8; ++k) fields[k] = block_.data() + k * kCount;
   std::mt19937 random(2);
   std::normal_distribution<float> normal;
   std::uniform_real_distribution<float> unit(-1.0f, 1.0f);

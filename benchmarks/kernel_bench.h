@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "base/aligned.h"
 #include "isa/entry.h"
 #include "norrsken/scene.h"
 #include "render/scene_view.h"
@@ -42,10 +42,7 @@ class BenchRays {
   std::uint32_t* primitives() const { return reinterpret_cast<std::uint32_t*>(primitives_); }
 
  private:
-  struct Free {
-    void operator()(float* p) const { std::free(p); }
-  };
-  std::unique_ptr<float, Free> block_;
+  AlignedVector<float> block_;
   RayArrays arrays_{};
   float* t_ = nullptr;
   float* primitives_ = nullptr;

@@ -181,8 +181,8 @@ void SceneArguments::add_to(CLI::App& command) {
 LoadOptions SceneArguments::load_options() const {
   LoadOptions options;
   for (const std::string& text : definitions) options.parameters.push_back(parse_definition(text));
-  if (!integrator.empty()) options.integrator = integrator;
-  if (!sampler.empty()) options.sampler = sampler;
+  options.integrator = integrator;
+  options.sampler = sampler;
   if (!size.empty()) std::tie(options.width, options.height) = parse_size(size);
   if (spp > 0) options.samples_per_pixel = spp;
   return options;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,7 +37,8 @@ CLI::Validator definition();
 
 /// The scene and what may be said over its head: SCENE, -D, --integrator, --sampler, --size, --spp.
 struct SceneArguments {
-  std::string scene, integrator, sampler, size;
+  std::string scene, size;
+  std::optional<std::string> integrator, sampler;
   std::vector<std::string> definitions;
   int spp = 0;  ///< 0: the scene's
 

@@ -97,6 +97,8 @@ TEST_F(Cli, WrongCommandLinesAre64AndLeaveNothing) {
   expect_usage({"render", "hexagon_room", "-Dlite=point"}, "$lite");
   expect_usage({"render", "hexagon_room", "--isa", "mmx"}, "accepted: auto");
   expect_usage({"render", "hexagon_room", "--integrator", "pth"}, "did you mean 'path'?");
+  expect_usage({"render", "hexagon_room", "--integrator", ""}, "integrator");
+  expect_usage({"render", "hexagon_room", "--sampler", ""}, "sampler");
   expect_usage({"render", "hexagon_room", "--quiet", "--json"}, "excludes");
   expect_usage({"render", "hexagon_room", "--threads", "1025"}, "a whole number from 0 to 1024");
   expect_usage({"render", "hexagon_room", "-o", "a.bmp"}, "a.bmp");

@@ -35,6 +35,8 @@ class EmbreeScene {
   void* scene() const { return scene_; }  ///< RTCScene
 
  private:
+  EmbreeScene();  // an empty scene; from here on the destructor cleans up whatever fails
+
   void* device_ = nullptr;
   void* scene_ = nullptr;
 };

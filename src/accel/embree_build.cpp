@@ -92,12 +92,16 @@ void attach_spheres(RTCDevice device, RTCScene target, const std::vector<SphereR
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const SceneTables& scene, const std::vector<SphereRecord>& spheres) {
+EmbreeScene::EmbreeScene() {
   RTCDevice device = rtcNewDevice(nullptr);
   if (device == nullptr) throw std::runtime_error("Embree cannot create a device");
   device_ = device;
-  RTCScene embree = rtcNewScene(device);
-  scene_ = embree;
+  scene_ = rtcNewScene(device);
+}
+
+EmbreeScene::EmbreeScene(const SceneTables& scene, const std::vector<SphereRecord>& spheres) : EmbreeScene() {
+  const auto device = static_cast<RTCDevice>(device_);
+  const auto embree = static_cast<RTCScene>(scene_);
   rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(embree, RTC_BUILD_QUALITY_HIGH);
   if (scene.triangle_count() > 0) attach_triangles(device, embree, scene);

@@ -186,7 +186,7 @@ accepted: a number above 0
             R"(scene.xml:9:33: error: 'radius' is 1e+16
     9 |     <float name="radius" value="1e16"/>
       |                                 ^~~~
-accepted: a number above 0 and at most 1e+15
+accepted: a number above 0 and at most 1e+12
 )");
 }
 

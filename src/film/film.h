@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/aligned.h"
 #include "norrsken/image.h"
 #include "tables/film_view.h"
 #include "tables/scene_tables.h"
@@ -50,9 +50,10 @@ class Film {
  private:
   std::uint32_t width_, height_;
   SamplerKind sampler_;
-  std::vector<double> sums_;
-  std::vector<std::uint32_t> counts_;
-  std::vector<float> features_;
+  // Tiles are a multiple of a cache line wide: aligned, two threads on neighbouring tiles never write to one line.
+  AlignedVector<double> sums_;
+  AlignedVector<std::uint32_t> counts_;
+  AlignedVector<float> features_;
 };
 
 }  // namespace norrsken

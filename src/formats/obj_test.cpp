@@ -116,15 +116,15 @@ accepted: a number such as 1.5 or -2e3
 a.obj:2:5: error: 'nan' is not finite
     2 | v 1 nan 0
       |     ^~~
-accepted: a number from -1e+15 to 1e+15
+accepted: a number from -1e+12 to 1e+12
 a.obj:3:7: error: '1e99' is too large
     3 | v 1 0 1e99
       |       ^~~~
-accepted: a number from -1e+15 to 1e+15
+accepted: a number from -1e+12 to 1e+12
 a.obj:4:7: error: '1e20' is too large
     4 | v 1 0 1e20
       |       ^~~~
-accepted: a number from -1e+15 to 1e+15
+accepted: a number from -1e+12 to 1e+12
 a.obj:5:1: error: 'v' has 2 numbers
     5 | v 1 0
       | ^

@@ -153,11 +153,11 @@ accepted: values as the header says)");
             R"(a.ply:10:3: error: 'y' of vertex 0 is nan
    10 | 0 nan 0
       |   ^~~
-accepted: a number from -1e+15 to 1e+15
+accepted: a number from -1e+12 to 1e+12
 a.ply:11:5: error: 'z' of vertex 1 is 1e20
    11 | 1 0 1e20
       |     ^~~~
-accepted: a number from -1e+15 to 1e+15
+accepted: a number from -1e+12 to 1e+12
 a.ply:13:7: error: face 0 has a vertex 3
    13 | 3 0 1 3
       |       ^
@@ -180,7 +180,7 @@ TEST(PlyErrors, BinaryBody) {
   bytes += bytes_of<std::uint8_t>(3, false);
   for (const std::int32_t index : {0, 1, 7}) bytes += bytes_of(index, false);
   EXPECT_EQ(complaints(bytes),
-            "a.ply: error: 'z' of vertex 0 is inf\naccepted: a number from -1e+15 to 1e+15\n"
+            "a.ply: error: 'z' of vertex 0 is inf\naccepted: a number from -1e+12 to 1e+12\n"
             "a.ply: error: face 0 has a vertex 7\naccepted: 0 to 2");
 }
 

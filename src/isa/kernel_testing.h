@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/aligned.h"
 #include "isa/entry.h"
 #include "norrsken/scene.h"
 #include "render/scene_view.h"
@@ -82,8 +83,7 @@ class RandomRays {
  public:
   RandomRays(std::uint32_t count, unsigned seed, const double lower[3], const double upper[3]) : count_(count) {
     const std::size_t padded = (count + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
-    values_ = std::unique_ptr<float, decltype(&std::free)>(
-        static_cast<float*>(std::aligned_alloc(64, 6 * padded * sizeof(float))), &std::free);
+    values_.resize(6 * padded);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
     std::normal_distribution<double> normal;
@@ -91,18 +91,18 @@ class RandomRays {
       double d[3], length = 0;
       for (double& x : d) x = normal(random), length += x * x;
       for (std::size_t k = 0; k < 3; ++k) {
-        values_.get()[k * padded + i] = static_cast<float>(lower[k] + (upper[k] - lower[k]) * unit(random));
-        values_.get()[(3 + k) * padded + i] = static_cast<float>(d[k] / std::sqrt(length));
+        values_[k * padded + i] = static_cast<float>(lower[k] + (upper[k] - lower[k]) * unit(random));
+        values_[(3 + k) * padded + i] = static_cast<float>(d[k] / std::sqrt(length));
       }
     }
-    const float* v = values_.get();
+    const float* v = values_.data();
     arrays_ = {v, v + padded, v + 2 * padded, v + 3 * padded, v + 4 * padded, v + 5 * padded, count};
   }
   const RayArrays& arrays() const { return arrays_; }
 
  private:
   std::uint32_t count_;
-  std::unique_ptr<float, decltype(&std::free)> values_{nullptr, &std::free};
+  AlignedVector<float> values_;
   RayArrays arrays_{};
 };
 
@@ -110,16 +110,12 @@ class RandomRays {
 template <class T>
 class Answers {
  public:
-  explicit Answers(std::uint32_t count)
-      : values_(static_cast<T*>(std::aligned_alloc(64, (count + kMaxLanes) / kMaxLanes * kMaxLanes * 4 + 64))) {}
-  T* data() { return values_.get(); }
-  T operator[](std::uint32_t i) const { return values_.get()[i]; }
+  explicit Answers(std::uint32_t count) : values_((count + kMaxLanes) / kMaxLanes * kMaxLanes + kMaxLanes) {}
+  T* data() { return values_.data(); }
+  T operator[](std::uint32_t i) const { return values_[i]; }
 
  private:
-  struct Free {
-    void operator()(T* p) const { std::free(p); }
-  };
-  std::unique_ptr<T, Free> values_;
+  AlignedVector<T> values_;
 };
 
 }  // namespace norrsken

@@ -1,11 +1,6 @@
 #include "render/wave_arena.h"
 
-#include <cstdlib>
-#include <new>
-
 namespace norrsken {
-
-void WaveArena::Free::operator()(float* p) const { std::free(p); }
 
 WaveArena::WaveArena(std::uint32_t slots) {
   const std::uint32_t capacity = (slots + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
@@ -22,10 +17,8 @@ WaveArena::WaveArena(std::uint32_t slots) {
   };
   std::size_t values = 0;
   for_each_queue([&](Queue&, std::uint32_t fields) { values += std::size_t{fields} * stride; });
-  block_.reset(static_cast<float*>(std::aligned_alloc(64, values * sizeof(float))));
-  if (block_ == nullptr) throw std::bad_alloc();
-  for (std::size_t i = 0; i < values; ++i) block_.get()[i] = 0.0f;  // lanes beyond a queue's end are read, masked
-  float* at = block_.get();
+  block_.resize(values);  // zeros, for lanes beyond a queue's end are read, masked
+  float* at = block_.data();
   for_each_queue([&](Queue& q, std::uint32_t fields) {
     q = {at, stride, 0, capacity};
     at += std::size_t{fields} * stride;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
+#include "base/aligned.h"
 #include "tables/wave_types.h"
 
 namespace norrsken {
@@ -19,10 +19,7 @@ class WaveArena {
   WaveMemory& memory() { return memory_; }
 
  private:
-  struct Free {
-    void operator()(float* p) const;
-  };
-  std::unique_ptr<float, Free> block_;
+  AlignedVector<float> block_;
   WaveMemory memory_;
 };
 

@@ -15,7 +15,7 @@
 namespace norrsken {
 
 /// Coordinates and matrix elements beyond this are refused: their squares must fit a float.
-inline constexpr double kMaxCoordinate = 1e15;
+inline constexpr double kMaxCoordinate = 1e12;
 
 /// A value with a name inside a node: `<float name="fov" value="45"/>`.
 struct Property {

@@ -171,8 +171,8 @@ TEST_F(ParametersTest, PlacementsMustBeUsable) {
   EXPECT_EQ(complaint(),
             "2: 'flat' cannot be inverted (accepted: scale factors other than 0); "
             "2: 'projective' is not affine (accepted: a matrix whose last row is 0 0 0 1); "
-            "2: 'far' has elements that are too large (accepted: elements up to 1e+15); "
-            "2: 'origin' is (1e+20, 0, 0) (accepted: coordinates from -1e+15 to 1e+15)");
+            "2: 'far' has elements that are too large (accepted: elements up to 1e+12); "
+            "2: 'origin' is (1e+20, 0, 0) (accepted: coordinates from -1e+12 to 1e+12)");
 }
 
 TEST_F(ParametersTest, FilesAreLookedUp) {
@@ -263,7 +263,7 @@ TEST_F(ParametersTest, BoundsThatDoNotBelongToTheRange) {
   EXPECT_EQ(p.number("inside", 7, 0, 180, Ends::open_below), 180);
   EXPECT_EQ(complaint(),
             "2: 'low' is 0 (accepted: a number above 0); 2: 'high' is 180 (accepted: a number above 0 and below 180); "
-            "2: 'huge' is 1e+20 (accepted: a number above 0 and at most 1e+15)");
+            "2: 'huge' is 1e+20 (accepted: a number above 0 and at most 1e+12)");
 }
 
 }  // namespace

@@ -170,7 +170,7 @@ TEST(MeshShape, RefusesVerticesFarBeyondTheScene) {
   EXPECT_THAT(compile_shape(mesh("a.obj", transform(R"(<scale value="1e12"/>)")),
                             {{"a.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1e9 0\nf 1 2 3\n"}})
                   .messages(),
-              ElementsAre("error: a vertex is at (1e+21, 0, 0) [coordinates from -1e+15 to 1e+15]"));
+              ElementsAre("error: a vertex is at (1e+21, 0, 0) [coordinates from -1e+12 to 1e+12]"));
 }
 
 TEST(MeshShape, NeedsItsFile) {

@@ -1,0 +1,58 @@
+// A model's parameters in lanes: values, or what their texture has at the place.
+#pragma once
+
+#include "texture/checkerboard.h"
+#include "texture/texture.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// The colour of the textures that `words` (see TextureWord) name; for lanes where they name one.
+inline Vec3f evaluate_texture(const SceneView& scene, UInt words, const TexturePoint& point, Mask active) {
+  Vec3f color{Float(0.0f), Float(0.0f), Float(0.0f)};
+  const UInt kind_bits = words & UInt(kTextureKindMask), offset = words & UInt(kTextureOffsetMask);
+#define NORRSKEN_TEXTURE(kind, Model)                                                                \
+  if (scene.texture_kinds & (1u << static_cast<std::uint32_t>(TextureKind::kind))) {                 \
+    const Mask of_kind = active & (kind_bits == UInt(make_texture(TextureKind::kind, 0)));           \
+    if (any(of_kind)) color = select(of_kind, Model::evaluate(scene, offset, point, of_kind), color); \
+  }
+#include "texture/list.def"
+#undef NORRSKEN_TEXTURE
+  return color;
+}
+
+NORRSKEN_INLINE Float luminance(const Vec3f& c) {
+  return fma(c.x, Float(0.212671f), fma(c.y, Float(0.715160f), c.z * Float(0.072169f)));
+}
+
+/// The parameters of the model that is stored at `offset`, for lanes of one kind of model. `k` counts floats in the
+/// order in which the host's ParameterBlock was filled.
+struct ParameterReader {
+  const SceneView& scene;
+  UInt offset;
+  const TexturePoint& point;
+  Mask active;
+
+  /// A plain float.
+  NORRSKEN_INLINE Float number(std::uint32_t k) const { return gather(scene.parameters + k, offset, active); }
+  /// Three plain floats.
+  NORRSKEN_INLINE Vec3f numbers3(std::uint32_t k) const { return gather3(scene.parameters + k, offset, active); }
+  /// A colour or its texture: 4 floats.
+  NORRSKEN_INLINE Vec3f color(std::uint32_t k) const {
+    const Vec3f value = numbers3(k);
+    if (scene.texture_kinds == 0) return value;
+    const UInt texture = gather_uint(scene.parameters + k + 3, offset, active);
+    const Mask textured = active & (texture != UInt(0u));
+    return any(textured) ? select(textured, evaluate_texture(scene, texture, point, textured), value) : value;
+  }
+  /// A number or its texture: 2 floats.
+  NORRSKEN_INLINE Float scalar(std::uint32_t k) const {
+    const Float value = number(k);
+    if (scene.texture_kinds == 0) return value;
+    const UInt texture = gather_uint(scene.parameters + k + 1, offset, active);
+    const Mask textured = active & (texture != UInt(0u));
+    return any(textured) ? select(textured, luminance(evaluate_texture(scene, texture, point, textured)), value)
+                         : value;
+  }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

@@ -1,0 +1,30 @@
+// What every texture gives to those whose parameters it stands for.
+//
+// A texture is a struct with
+//   static Vec3f evaluate(const SceneView&, UInt offset, const TexturePoint&, Mask active);
+// where `offset` is that of its own floats in the scene's parameters. Numbers are textures too: theirs is the
+// luminance of the colour.
+#pragma once
+
+#include "math/vec3.h"
+#include "math/warp.h"
+#include "tables/wave_types.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// A place on a surface, as textures see it.
+struct TexturePoint {
+  Vec2f uv;
+  UInt primitive;
+  UInt shape;
+  Vec2f barycentric;  ///< of triangles: weights of the second and third corner
+};
+
+/// The affine map of texture coordinates whose six floats (two rows) are stored at `offset`.
+NORRSKEN_INLINE Vec2f to_uv(const SceneView& scene, UInt offset, Vec2f uv, Mask active) {
+  const auto element = [&](int k) { return gather(scene.parameters + k, offset, active); };
+  return {fma(element(0), uv.x, fma(element(1), uv.y, element(2))),
+          fma(element(3), uv.x, fma(element(4), uv.y, element(5)))};
+}
+
+}  // namespace norrsken::NORRSKEN_ISA
