@@ -120,6 +120,7 @@ void check_arithmetic(const float* a, const float* b, const float* c, std::uint3
     NORRSKEN_CHECK_LANES(min(p, q), (x < y ? x : y));
     NORRSKEN_CHECK_LANES(max(p, q), (x > y ? x : y));
     NORRSKEN_CHECK_LANES(round(p), __builtin_rintf(x));
+    NORRSKEN_CHECK_LANES(floor(p), __builtin_floorf(x));
     NORRSKEN_CHECK_LANES(copysign(p, q), __builtin_copysignf(x, y));
     NORRSKEN_CHECK_LANES(select(p < q, p, r), (x < y ? x : z));
     NORRSKEN_CHECK_LANES(select(p >= q, p, r), (x >= y ? x : z));

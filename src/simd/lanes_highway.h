@@ -57,6 +57,7 @@ NORRSKEN_INLINE Float abs(Float a) { return hn::Abs(a.v); }
 NORRSKEN_INLINE Float min(Float a, Float b) { return hn::Min(a.v, b.v); }
 NORRSKEN_INLINE Float max(Float a, Float b) { return hn::Max(a.v, b.v); }
 NORRSKEN_INLINE Float round(Float a) { return hn::Round(a.v); }
+NORRSKEN_INLINE Float floor(Float a) { return hn::Floor(a.v); }
 NORRSKEN_INLINE Float copysign(Float magnitude, Float sign) { return hn::CopySign(magnitude.v, sign.v); }
 
 NORRSKEN_INLINE UInt operator+(UInt a, UInt b) { return hn::Add(a.v, b.v); }

@@ -53,6 +53,7 @@ NORRSKEN_INLINE Float abs(Float a) { return __builtin_fabsf(a.v); }
 NORRSKEN_INLINE Float min(Float a, Float b) { return a.v < b.v ? a : b; }
 NORRSKEN_INLINE Float max(Float a, Float b) { return a.v > b.v ? a : b; }
 NORRSKEN_INLINE Float round(Float a) { return __builtin_rintf(a.v); }
+NORRSKEN_INLINE Float floor(Float a) { return __builtin_floorf(a.v); }
 NORRSKEN_INLINE Float copysign(Float magnitude, Float sign) { return __builtin_copysignf(magnitude.v, sign.v); }
 
 NORRSKEN_INLINE UInt operator+(UInt a, UInt b) { return a.v + b.v; }
