@@ -36,6 +36,16 @@ std::string_view trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
+std::vector<TextPiece> split(std::string_view text, std::string_view separators) {
+  std::vector<TextPiece> pieces;
+  for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
+    pieces.push_back({text.substr(at, end - at), at});
+    at = end;
+  }
+  return pieces;
+}
+
 std::string join(const std::vector<std::string>& words, std::string_view separator) {
   std::string text;
   for (const std::string& word : words) {

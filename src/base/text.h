@@ -12,6 +12,14 @@ namespace norrsken {
 /// Without blanks (space, tab, line breaks) at both ends.
 std::string_view trim(std::string_view text);
 
+/// A piece of a text, and where in the text it begins.
+struct TextPiece {
+  std::string_view text;
+  std::size_t offset;
+};
+/// The pieces between any number of `separators`; none is empty.
+std::vector<TextPiece> split(std::string_view text, std::string_view separators);
+
 /// `words` with `separator` between them.
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 

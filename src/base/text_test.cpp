@@ -17,6 +17,16 @@ TEST(Text, TrimRemovesBlanksAtBothEndsOnly) {
   EXPECT_EQ(trim(""), "");
 }
 
+TEST(Text, SplitsAtAnyNumberOfSeparators) {
+  const auto pieces = split(", ab  c,", " ,");
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_EQ(pieces[0].text, "ab");
+  EXPECT_EQ(pieces[0].offset, 2u);
+  EXPECT_EQ(pieces[1].text, "c");
+  EXPECT_EQ(pieces[1].offset, 6u);
+  EXPECT_TRUE(split(" ,", " ,").empty());
+}
+
 TEST(Text, CaseIsIgnoredOnRequest) {
   EXPECT_TRUE(equal_ignoring_case("TrUe", "true"));
   EXPECT_FALSE(equal_ignoring_case("true", "tru"));

@@ -2,73 +2,85 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "color/cie_tables.h"
 
 namespace norrsken {
 namespace {
 
-constexpr double kFirstWavelength = 360, kLastWavelength = 830;  // nm, the range of the CIE tables
-constexpr int kSteps = 470;
-
-// Gaussian with a width on either side of its peak, given as inverse standard deviations in 1/nm.
-double lobe(double wavelength, double peak, double inverse_below, double inverse_above) {
-  const double t = (wavelength - peak) * (wavelength < peak ? inverse_below : inverse_above);
-  return std::exp(-0.5 * t * t);
+CieRow row_at(double wavelength) {
+  if (!(wavelength >= kCieFirstWavelength && wavelength <= kCieLastWavelength)) return {};
+  const double position = (wavelength - kCieFirstWavelength) / kCieStep;
+  const auto i = std::min(static_cast<std::size_t>(position), kCieTable.size() - 2);
+  const CieRow &a = kCieTable[i], &b = kCieTable[i + 1];
+  const double t = position - static_cast<double>(i);
+  return {std::lerp(a.x, b.x, t), std::lerp(a.y, b.y, t), std::lerp(a.z, b.z, t), std::lerp(a.d65, b.d65, t)};
 }
 
 bool is_constant(SpectrumSamples samples) { return samples.size() == 1 && samples[0].first == 0; }
 
-double value_at(SpectrumSamples samples, double wavelength) {
-  const auto above = std::upper_bound(samples.begin(), samples.end(), wavelength,
-                                      [](double w, const auto& sample) { return w < sample.first; });
-  if (above == samples.begin()) return 0;
-  const auto& [w0, v0] = *(above - 1);
-  if (above == samples.end()) return wavelength == w0 ? v0 : 0;
-  const auto& [w1, v1] = *above;
-  return v0 + (v1 - v0) * (wavelength - w0) / (w1 - w0);
-}
+constexpr std::pair<double, double> kFlat[] = {{kCieFirstWavelength, 1}, {kCieLastWavelength, 1}};
 
-// XYZ per unit of the integral of y, by the midpoint rule over `value(wavelength)`.
-template <typename Value>
-ColorVector integrate(const Value& value) {
-  const double step = (kLastWavelength - kFirstWavelength) / kSteps;
+/// The integral of spectrum times colour matching functions, and times D65 if `daylight`; XYZ, not normalised. Between
+/// neighbouring wavelengths of either table the integrand is a cubic, for which Simpson's rule is exact.
+ColorVector integrate(SpectrumSamples samples, bool daylight) {
+  std::vector<double> knots;
+  for (std::size_t i = 0; i < kCieTable.size(); ++i) knots.push_back(kCieFirstWavelength + kCieStep * double(i));
+  for (const auto& sample : samples) knots.push_back(sample.first);
+  std::sort(knots.begin(), knots.end());
+
   ColorVector sum{};
-  double luminance = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double wavelength = kFirstWavelength + (i + 0.5) * step;
-    const ColorVector matching = cie_matching(wavelength);
-    const double v = value(wavelength);
-    for (int k = 0; k < 3; ++k) sum[k] += matching[k] * v;
-    luminance += matching[1];
+  std::size_t piece = 0;
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    const double a = knots[i], b = knots[i + 1];
+    if (a < std::max(kCieFirstWavelength, samples.front().first)) continue;
+    if (b > std::min(kCieLastWavelength, samples.back().first)) break;
+    if (!(b > a)) continue;
+    while (samples[piece + 1].first <= a) ++piece;
+    const auto& [w0, v0] = samples[piece];
+    const auto& [w1, v1] = samples[piece + 1];
+    for (const auto& [w, weight] : {std::pair(a, 1.0), std::pair((a + b) / 2, 4.0), std::pair(b, 1.0)}) {
+      const CieRow row = row_at(w);
+      const double factor = weight * (b - a) / 6 * std::lerp(v0, v1, (w - w0) / (w1 - w0)) * (daylight ? row.d65 : 1.0);
+      sum[0] += factor * row.x;
+      sum[1] += factor * row.y;
+      sum[2] += factor * row.z;
+    }
   }
-  for (double& component : sum) component /= luminance;
   return sum;
 }
 
-// The cone-like responses between which Bradford adapts (Lam 1985, as in ICC.1:2022 annex E).
-constexpr ColorMatrix kBradford{{{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
-
 }  // namespace
 
-ColorVector cie_matching(double w) {
-  return {1.056 * lobe(w, 599.8, 0.0264, 0.0323) + 0.362 * lobe(w, 442.0, 0.0624, 0.0374) -
-              0.065 * lobe(w, 501.1, 0.0490, 0.0382),
-          0.821 * lobe(w, 568.8, 0.0213, 0.0247) + 0.286 * lobe(w, 530.9, 0.0613, 0.0322),
-          1.217 * lobe(w, 437.0, 0.0845, 0.0278) + 0.681 * lobe(w, 459.0, 0.0385, 0.0725)};
+ColorVector cie_matching(double wavelength) {
+  const CieRow row = row_at(wavelength);
+  return {row.x, row.y, row.z};
 }
 
 ColorVector rgb_of_reflectance(SpectrumSamples samples) {
   if (is_constant(samples)) return {samples[0].second, samples[0].second, samples[0].second};
-  const ColorVector xyz = integrate([&](double wavelength) { return value_at(samples, wavelength); });
-  const ColorVector white = integrate([](double) { return 1.0; });
-  ColorVector cone = kBradford * xyz;
-  const ColorVector cone_from = kBradford * white, cone_to = kBradford * xyz_of(kSrgbWhite);
-  for (int k = 0; k < 3; ++k) cone[k] *= cone_to[k] / cone_from[k];
-  return kSrgbFromXyz * (inverse(kBradford) * cone);
+  // sRGB's white is D65 as the standard rounds it, that of the table differs from it in the fourth digit.
+  static const ColorVector white = kSrgbFromXyz * integrate(kFlat, true);
+  ColorVector rgb = kSrgbFromXyz * integrate(samples, true);
+  for (int k = 0; k < 3; ++k) rgb[k] /= white[k];
+  return rgb;
 }
 
 ColorVector rgb_of_emission(SpectrumSamples samples) {
-  if (is_constant(samples)) return {samples[0].second, samples[0].second, samples[0].second};
-  return kSrgbFromXyz * integrate([&](double wavelength) { return value_at(samples, wavelength); });
+  static const ColorVector equal_energy = integrate(kFlat, false);
+  const bool constant = is_constant(samples);
+  ColorVector xyz = constant ? equal_energy : integrate(samples, false);
+  for (double& component : xyz) component *= (constant ? samples[0].second : 1.0) / equal_energy[1];
+  return kSrgbFromXyz * xyz;
+}
+
+double blackbody_radiance(double wavelength, double temperature) {
+  constexpr double kPlanck = 6.62607015e-34, kLightSpeed = 299792458, kBoltzmann = 1.380649e-23;
+  const double length = wavelength * 1e-9;
+  const double per_meter = 2 * kPlanck * kLightSpeed * kLightSpeed / std::pow(length, 5) /
+                           std::expm1(kPlanck * kLightSpeed / (length * kBoltzmann * temperature));
+  return per_meter * 1e-9;
 }
 
 }  // namespace norrsken

@@ -15,21 +15,7 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::string_view kSeparators = " \t\r\n,";
 
-// A piece of a text between separators, and where in the text it begins.
-struct Piece {
-  std::string_view text;
-  std::size_t offset;
-};
-
-std::vector<Piece> split(std::string_view text, std::string_view separators) {
-  std::vector<Piece> pieces;
-  for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != std::string_view::npos;) {
-    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
-    pieces.push_back({text.substr(at, end - at), at});
-    at = end;
-  }
-  return pieces;
-}
+using Piece = TextPiece;
 
 void complain(const Literal& literal, const Piece& piece, std::string_view what, std::string_view accepted,
               Diagnostics& diagnostics) {
@@ -165,7 +151,9 @@ std::optional<Property::Spectrum> read_spectrum(const Literal& literal, Diagnost
       return std::nullopt;
     }
   }
-  return spectrum;
+  if (spectrum.samples.size() > 1) return spectrum;
+  complain(literal, trimmed(literal), "is a spectrum at one wavelength", kAccepted, diagnostics);
+  return std::nullopt;
 }
 
 std::optional<Property::Spectrum> read_spectrum_file(const SourceText& source, Diagnostics& diagnostics) {
@@ -197,8 +185,10 @@ std::optional<Property::Spectrum> read_spectrum_file(const SourceText& source, D
     }
     start = end + 1;
   }
-  if (!spectrum.samples.empty()) return spectrum;
-  diagnostics.error(source.location(), "the file has no spectrum", kAccepted);
+  if (spectrum.samples.size() > 1) return spectrum;
+  diagnostics.error(source.location(),
+                    spectrum.samples.empty() ? "the file has no spectrum" : "the file's spectrum is at one wavelength",
+                    kAccepted);
   return std::nullopt;
 }
 

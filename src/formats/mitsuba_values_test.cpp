@@ -143,6 +143,7 @@ TEST(ValueErrors, Spectrum) {
   <spectrum name="c" value="400:x"/>
   <spectrum name="d" value="blue"/>
   <spectrum name="e"/>
+  <spectrum name="f" value="550:1"/>
 </scene>)"),
             R"(room.xml:2:38: error: '500' is not a pair
     2 |   <spectrum name="a" value="400:0.1, 500"/>
@@ -163,7 +164,11 @@ accepted: a number, or wavelength:value pairs such as 400:0.1, 700:0.8
 room.xml:6:3: error: <spectrum> needs either 'value' or 'filename'
     6 |   <spectrum name="e"/>
       |   ^~~~~~~~~
-accepted: value="0.5", value="400:0.1, 700:0.8", filename="measured.spd")");
+accepted: value="0.5", value="400:0.1, 700:0.8", filename="measured.spd"
+room.xml:7:29: error: '550:1' is a spectrum at one wavelength
+    7 |   <spectrum name="f" value="550:1"/>
+      |                             ^~~~~
+accepted: a number, or wavelength:value pairs such as 400:0.1, 700:0.8)");
 }
 
 TEST(ValueErrors, SpectrumFiles) {
@@ -173,11 +178,13 @@ TEST(ValueErrors, SpectrumFiles) {
   <spectrum name="c" filename="word.spd"/>
   <spectrum name="d" filename="order.spd"/>
   <spectrum name="e" filename="none.spd"/>
+  <spectrum name="f" filename="one.spd"/>
 </scene>)"},
                                        {"wide.spd", "400 1 2\n"},
                                        {"word.spd", "# measured\n400 1\n500 one\n"},
                                        {"order.spd", "500 1\n400 1\n"},
-                                       {"none.spd", "# nothing\n"}}),
+                                       {"none.spd", "# nothing\n"},
+                                       {"one.spd", "550 1\n"}}),
             R"(room.xml:2:32: error: there is no file 'missing.spd'
     2 |   <spectrum name="a" filename="missing.spd"/>
       |                                ^~~~~~~~~~~
@@ -195,6 +202,8 @@ order.spd:2:1: error: '400' is not above the wavelength before it (named at room
       | ^~~
 accepted: wavelengths in nm, ascending
 none.spd: error: the file has no spectrum (named at room.xml:6:32)
+accepted: a wavelength in nm and a value on each line, # for comments
+one.spd: error: the file's spectrum is at one wavelength (named at room.xml:7:32)
 accepted: a wavelength in nm and a value on each line, # for comments)");
 }
 

@@ -9,8 +9,10 @@
 #include <limits>
 #include <utility>
 
+#include "base/numbers.h"
 #include "base/text.h"
 #include "color/spectrum.h"
+#include "scene/constant_spectrum.h"
 #include "scene/file_system.h"
 
 namespace norrsken {
@@ -91,6 +93,12 @@ const Property* Parameters::find(std::string_view name) {
   return found == node_.properties.end() ? nullptr : &*found;
 }
 
+const Node::Child* Parameters::find_child(std::string_view name) const {
+  const auto named = [name](const Node::Child& child) { return child.name == name; };
+  const auto found = std::find_if(node_.children.begin(), node_.children.end(), named);
+  return found == node_.children.end() ? nullptr : &*found;
+}
+
 template <typename... Types>
 const Property* Parameters::find_as(std::string_view name, std::string_view accepted) {
   const Property* property = find(name);
@@ -99,11 +107,21 @@ const Property* Parameters::find_as(std::string_view name, std::string_view acce
     error(name, fmt::format("'{}' is {}", name, with_article(property->type)), std::string(accepted));
     return nullptr;
   }
-  const auto named = [name](const Node::Child& child) { return child.name == name; };
-  const auto child = std::find_if(node_.children.begin(), node_.children.end(), named);
-  if (child != node_.children.end())
+  if (const Node::Child* child = find_child(name))
     error(name, fmt::format("'{}' is {} here", name, with_article(child->node->kind)), std::string(accepted));
   return nullptr;
+}
+
+template <typename... Types>
+const Property* Parameters::find_value(std::string_view name, std::string_view accepted, Property& storage) {
+  const Node::Child* child = find_child(name);
+  if (!child || !is_constant_spectrum(*child->node)) return find_as<Types...>(name, accepted);
+  asked_names_.emplace(name);
+  const auto errors = diagnostics_.error_count();
+  Parameters inside(*child->node, description_, files_, diagnostics_);
+  storage = read_constant_spectrum(inside);
+  inside.finish();
+  return diagnostics_.error_count() == errors ? &storage : nullptr;
 }
 
 bool Parameters::boolean(std::string_view name, bool fallback) {
@@ -124,12 +142,21 @@ std::int64_t Parameters::integer(std::string_view name, std::int64_t fallback, s
 }
 
 double Parameters::number(std::string_view name, double fallback, double min, double max, Ends ends) {
-  const Property* property = find_as<double, std::int64_t>(name, "float");
-  if (!property) return fallback;
-  const double* real = std::get_if<double>(&property->value);
-  const double value = real ? *real : static_cast<double>(std::get<std::int64_t>(property->value));
   min = std::max(min, -kMaxNumber);
   max = std::min(max, kMaxNumber);
+  Property storage;
+  const Property* property = find_value<double, std::int64_t>(name, "float", storage);
+  if (!property) return fallback;
+  double value = 0;
+  if (const double* real = std::get_if<double>(&property->value)) {
+    value = *real;
+  } else if (const std::int64_t* integer = std::get_if<std::int64_t>(&property->value)) {
+    value = static_cast<double>(*integer);
+  } else {
+    const auto rgb = color_of(*property, name, min, max, false);
+    if (!rgb) return fallback;
+    value = (rgb->x + rgb->y + rgb->z) / 3;
+  }
   const bool is_above = ends == Ends::closed ? value >= min : value > min;
   const bool is_below = ends == Ends::open ? value < max : value <= max;
   if (is_above && is_below) return value;
@@ -155,19 +182,29 @@ std::string Parameters::choice(std::string_view name, std::string_view fallback,
   return std::string(fallback);
 }
 
-glm::dvec3 Parameters::color(std::string_view name, glm::dvec3 fallback, double min, double max, bool emission) {
-  const Property* property =
-      find_as<Property::Rgb, Property::Spectrum, double, std::int64_t>(name, "rgb, spectrum, float");
-  if (!property) return fallback;
-  min = std::max(min, -kMaxNumber);
-  max = std::min(max, kMaxNumber);
+const Node::Child* Parameters::texture(std::string_view name) {
+  const Node::Child* child = find_child(name);
+  if (!child || !is_spectrum_or_texture(*child->node) || is_constant_spectrum(*child->node)) return nullptr;
+  asked_names_.emplace(name);
+  return child;
+}
 
-  if (const auto* spectrum = std::get_if<Property::Spectrum>(&property->value)) {
+glm::dvec3 Parameters::color(std::string_view name, glm::dvec3 fallback, double min, double max, bool emission) {
+  Property storage;
+  const Property* property =
+      find_value<Property::Rgb, Property::Spectrum, double, std::int64_t>(name, "rgb, spectrum, float", storage);
+  if (!property) return fallback;
+  return color_of(*property, name, std::max(min, -kMaxNumber), std::min(max, kMaxNumber), emission).value_or(fallback);
+}
+
+std::optional<glm::dvec3> Parameters::color_of(const Property& property, std::string_view name, double min, double max,
+                                               bool emission) {
+  if (const auto* spectrum = std::get_if<Property::Spectrum>(&property.value)) {
     for (const auto& [wavelength, value] : spectrum->samples) {
       if (value >= min && value <= max) continue;
-      error(name, fmt::format("'{}' has a value of {}{}", name, value, property->origin),
+      error(name, fmt::format("'{}' has a value of {}{}", name, value, property.origin),
             number_range("a spectrum with values", min, max, value));
-      return fallback;
+      return std::nullopt;
     }
     const ColorVector rgb = emission ? rgb_of_emission(spectrum->samples) : rgb_of_reflectance(spectrum->samples);
     // Saturated spectra lie outside sRGB: not the user's fault, the nearest colour must do.
@@ -175,20 +212,46 @@ glm::dvec3 Parameters::color(std::string_view name, glm::dvec3 fallback, double 
   }
 
   glm::dvec3 value;
-  if (const auto* rgb = std::get_if<Property::Rgb>(&property->value)) {
+  if (const auto* rgb = std::get_if<Property::Rgb>(&property.value)) {
     value = rgb->value;
-  } else if (const auto* real = std::get_if<double>(&property->value)) {
+  } else if (const auto* real = std::get_if<double>(&property.value)) {
     value = glm::dvec3(*real);
   } else {
-    value = glm::dvec3(static_cast<double>(std::get<std::int64_t>(property->value)));
+    value = glm::dvec3(static_cast<double>(std::get<std::int64_t>(property.value)));
   }
   for (int i = 0; i < 3; ++i) {
     if (value[i] >= min && value[i] <= max) continue;
-    error(name, fmt::format("'{}' is ({}, {}, {}){}", name, value.x, value.y, value.z, property->origin),
+    error(name, fmt::format("'{}' is ({}, {}, {}){}", name, value.x, value.y, value.z, property.origin),
           number_range("components", min, max, value[i]));
-    return fallback;
+    return std::nullopt;
   }
   return value;
+}
+
+std::vector<std::pair<double, double>> Parameters::spectrum(std::string_view name) {
+  constexpr std::string_view kAccepted = "a spectrum of wavelength:value pairs";
+  const Property* property = find_as<Property::Spectrum>(name, kAccepted);
+  if (!property) return {};
+  const auto& samples = std::get<Property::Spectrum>(property->value).samples;
+  if (samples.size() > 1) return samples;
+  error(name, fmt::format("'{}' is a single value{}", name, property->origin), std::string(kAccepted));
+  return {};
+}
+
+std::vector<double> Parameters::numbers(std::string_view name) {
+  constexpr std::string_view kAccepted = "a string of numbers";
+  const Property* property = find_as<std::string>(name, kAccepted);
+  if (!property) return {};
+  std::vector<double> values;
+  for (const TextPiece& piece : split(std::get<std::string>(property->value), " \t\r\n,")) {
+    const NumberStatus status = parse_number(piece.text, values.emplace_back());
+    if (status == NumberStatus::ok) continue;
+    error(name, fmt::format("{} in '{}'{} {}", quoted(piece.text), name, property->origin, describe(status)),
+          std::string(kAccepted));
+    return {};
+  }
+  if (values.empty()) error(name, fmt::format("'{}' is empty{}", name, property->origin), std::string(kAccepted));
+  return values;
 }
 
 glm::dvec3 Parameters::point(std::string_view name, glm::dvec3 fallback) {
@@ -215,12 +278,7 @@ glm::dmat4 Parameters::transform(std::string_view name) {
 }
 
 std::string Parameters::file(std::string_view name) {
-  if (!has(name)) {
-    asked_names_.emplace(name);
-    error(name, fmt::format("{} needs a parameter '{}'", name_of(node_), name),
-          fmt::format("<string name=\"{}\" value=\"...\"/>", name));
-    return {};
-  }
+  if (!require(name, fmt::format("<string name=\"{}\" value=\"...\"/>", name))) return {};
   const Property* property = find_as<std::string>(name, "string");
   if (!property) return {};
   const std::string& value = std::get<std::string>(property->value);
@@ -246,6 +304,13 @@ const Node::Child* Parameters::child(std::string_view kind) {
     diagnostics_.error(found[1]->location, fmt::format("{} has more than one {}", name_of(node_), kind),
                        fmt::format("one {}", kind));
   return found.empty() ? nullptr : found[0];
+}
+
+bool Parameters::require(std::string_view name, std::string_view example) {
+  if (has(name)) return true;
+  asked_names_.emplace(name);
+  error(name, fmt::format("{} needs a parameter '{}'", name_of(node_), name), std::string(example));
+  return false;
 }
 
 SourceLocation Parameters::where(std::string_view name) const {

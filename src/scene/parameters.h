@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/description.h"
@@ -31,14 +33,23 @@ class Parameters {
   bool boolean(std::string_view name, bool fallback);
   /// Inclusive bounds.
   std::int64_t integer(std::string_view name, std::int64_t fallback, std::int64_t min, std::int64_t max);
-  /// Also takes an integer. Always finite.
+  /// Also takes an integer, or a `spectrum` or `texture` node of one value, of whose colour the mean counts. Always
+  /// finite.
   double number(std::string_view name, double fallback, double min, double max, Ends ends = Ends::closed);
   std::string text(std::string_view name, std::string_view fallback);
   /// One of the words; otherwise an error that lists them.
   std::string choice(std::string_view name, std::string_view fallback, std::initializer_list<std::string_view> words);
-  /// Linear sRGB from `rgb`, `spectrum` or a grey `float`; components, or the values of the spectrum, within [min,
-  /// max]. `emission`: a spectrum is a light's, otherwise a reflectance (see color/spectrum.h).
+  /// Linear sRGB from `rgb`, `spectrum`, a grey `float`, or a `spectrum` or `texture` node of one value; components, or
+  /// the values of the spectrum, within [min, max]. `emission`: a spectrum is a light's, otherwise a reflectance (see
+  /// color/spectrum.h).
   glm::dvec3 color(std::string_view name, glm::dvec3 fallback, double min, double max, bool emission = false);
+  /// The node of that name whose values differ from place to place: a `texture` (or `spectrum`) that `color` and
+  /// `number` have no answer to. Null if there is none.
+  const Node::Child* texture(std::string_view name);
+  /// Wavelengths in nm and values, spelled out; empty after a complaint.
+  std::vector<std::pair<double, double>> spectrum(std::string_view name);
+  /// Numbers in a string, apart by blanks or commas; empty after a complaint.
+  std::vector<double> numbers(std::string_view name);
   glm::dvec3 point(std::string_view name, glm::dvec3 fallback);
   glm::dmat4 transform(std::string_view name);  ///< identity if not given; singular or projective ones are an error
   /// An existing file's path as found in the search order; empty after a complaint.
@@ -49,6 +60,9 @@ class Parameters {
   /// At most one child of that kind; more are an error.
   const Node::Child* child(std::string_view kind);
 
+  /// Whether the parameter was given; complains if not, with what could be written.
+  bool require(std::string_view name, std::string_view example);
+
   /// Where to point for a complaint about parameter `name` (the node itself if it was not given).
   SourceLocation where(std::string_view name) const;
   void error(std::string_view name, std::string message, std::string accepted = {});
@@ -58,9 +72,15 @@ class Parameters {
 
  private:
   const Property* find(std::string_view name);
+  const Node::Child* find_child(std::string_view name) const;
   /// The property if it has one of the types; a complaint if it has another or is a child node.
   template <typename... Types>
   const Property* find_as(std::string_view name, std::string_view accepted);
+  /// The same, or what a node of one value says, which is put into `storage`.
+  template <typename... Types>
+  const Property* find_value(std::string_view name, std::string_view accepted, Property& storage);
+  std::optional<glm::dvec3> color_of(const Property& property, std::string_view name, double min, double max,
+                                     bool emission);
 
   const Node& node_;
   const Description& description_;
