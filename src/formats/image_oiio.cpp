@@ -1,4 +1,4 @@
-#include "film/image_oiio.h"
+#include "formats/image_oiio.h"
 
 #include <OpenImageIO/imageio.h>
 

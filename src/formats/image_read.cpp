@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "film/image_oiio.h"
+#include "formats/image_oiio.h"
 #include "norrsken/image.h"
 
 namespace norrsken {
