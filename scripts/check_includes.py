@@ -67,6 +67,7 @@ LIBRARIES = {
     "embree3/": ["accel"],
     "OpenImageIO/": ["film", "formats"],
     "pugixml.hpp": ["formats"],
+    "zlib.h": ["formats"],
     "CLI/": ["apps"],
     "gtest/": ["tests"],
     "gmock/": ["tests"],

@@ -3,9 +3,18 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace norrsken {
+
+/// Values that a mesh has beside its geometry, for textures to look up by name.
+struct MeshAttribute {
+  std::string name;            ///< with "vertex_" or "face_" in front: "vertex_color"
+  std::uint32_t channels = 1;  ///< 1 or 3
+  bool per_face = false;       ///< a value for each triangle; otherwise one for each vertex
+  std::vector<float> values;   ///< `channels` for each
+};
 
 /// Indexed triangles. `normals` and `texcoords` are empty or as long as `positions`.
 struct MeshData {
@@ -13,6 +22,8 @@ struct MeshData {
   std::vector<std::array<float, 3>> normals;
   std::vector<std::array<float, 2>> texcoords;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the front
+  std::vector<MeshAttribute> attributes;
+  bool face_normals = false;  ///< the file wants its triangles flat
 };
 
 }  // namespace norrsken

@@ -3,139 +3,56 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <new>
+#include <span>
 
-#include "base/numbers.h"
-#include "base/text.h"
+#include "color/srgb.h"
 #include "formats/mesh_complaints.h"
 #include "formats/mesh_readers.h"
+#include "formats/ply_attributes.h"
 #include "formats/ply_header.h"
+#include "formats/ply_input.h"
 #include "scene/description.h"
 
 namespace norrsken {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "byte order is swapped for big-endian files only");
-
-template <typename T, bool Swap>
-double load(const char* bytes) {
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), bytes, sizeof(T));
-  if constexpr (Swap) std::reverse(raw.begin(), raw.end());
-  return static_cast<double>(std::bit_cast<T>(raw));
-}
-
-// Values of a binary body, one after the other.
-template <bool Swap>
-class BinaryInput {
- public:
-  BinaryInput(std::string_view body, MeshComplaints&) : at_(body.data()), end_(body.data() + body.size()) {}
-
-  /// False at the end of the file.
-  bool read(PlyType type, double& value) {
-    if (remaining() < size_of(type)) return false;
-    switch (type) {
-      case PlyType::int8:
-        value = load<std::int8_t, Swap>(at_);
-        break;
-      case PlyType::uint8:
-        value = load<std::uint8_t, Swap>(at_);
-        break;
-      case PlyType::int16:
-        value = load<std::int16_t, Swap>(at_);
-        break;
-      case PlyType::uint16:
-        value = load<std::uint16_t, Swap>(at_);
-        break;
-      case PlyType::int32:
-        value = load<std::int32_t, Swap>(at_);
-        break;
-      case PlyType::uint32:
-        value = load<std::uint32_t, Swap>(at_);
-        break;
-      case PlyType::float32:
-        value = load<float, Swap>(at_);
-        break;
-      case PlyType::float64:
-        value = load<double, Swap>(at_);
-        break;
-    }
-    at_ += size_of(type);
-    return true;
-  }
-
-  bool failed() const { return false; }
-  std::string_view last() const { return {}; }
-  /// The fewest bytes that a value of the type can take.
-  static std::size_t least_size(PlyType type) { return size_of(type); }
-  std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
-
- private:
-  const char* at_;
-  const char* end_;
-};
-
-// Values of a body of text, apart by blanks and line breaks.
-class TextInput {
- public:
-  TextInput(std::string_view body, MeshComplaints& complaints) : body_(body), complaints_(complaints) {}
-
-  /// False at the end of the file, or after a complaint: then `failed`.
-  bool read(PlyType type, double& value) {
-    at_ = std::min(body_.find_first_not_of(kBlanks, at_), body_.size());
-    if (at_ == body_.size()) return false;
-    const std::size_t stop = std::min(body_.find_first_of(kBlanks, at_), body_.size());
-    last_ = body_.substr(at_, stop - at_);
-    at_ = stop;
-    NumberStatus status = parse_number(last_, value);
-    // "nan" is for whoever asked for the value to judge; it may be a property that nobody asks for.
-    if (status == NumberStatus::not_finite || status == NumberStatus::overflow) {
-      value = std::numeric_limits<double>::quiet_NaN();
-      status = NumberStatus::ok;
-    }
-    const bool fits = type >= PlyType::float32 || std::isnan(value) || value == std::floor(value);
-    if (status == NumberStatus::ok && fits) return true;
-    failed_ = true;
-    complaints_.at(last_, fmt::format("{} is no {}", quoted(last_), type >= PlyType::float32 ? "number" : "integer"),
-                   "values as the header says");
-    return false;
-  }
-
-  bool failed() const { return failed_; }
-  /// The word that was read last.
-  std::string_view last() const { return last_; }
-  static std::size_t least_size(PlyType) { return 2; }
-  std::size_t remaining() const { return body_.size() - at_; }
-
- private:
-  static constexpr std::string_view kBlanks = " \t\r\n";
-
-  std::string_view body_;
-  MeshComplaints& complaints_;
-  std::size_t at_ = 0;
-  std::string_view last_;
-  bool failed_ = false;
-};
-
-// What a vertex may have, in the order of the values of a row.
-enum Slot { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kSlots };
-
-int slot_of(std::string_view property) {
-  constexpr std::pair<std::string_view, Slot> kNames[] = {
-      {"x", kX}, {"y", kY}, {"z", kZ}, {"nx", kNx}, {"ny", kNy},       {"nz", kNz},
-      {"u", kU}, {"v", kV}, {"s", kU}, {"t", kV},   {"texture_u", kU}, {"texture_v", kV}};
-  for (const auto& [name, slot] : kNames) {
-    if (name == property) return slot;
-  }
-  return kSlots;
-}
+constexpr double kMaxFloat = std::numeric_limits<float>::max();
 
 bool is_face_list(const PlyProperty& property) {
   return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+/// Where a property's values go.
+struct Column {
+  float* into = nullptr;   ///< the next one; null: nowhere
+  std::size_t stride = 0;  ///< in floats
+  double limit = kMaxFloat;
+  double full_scale = 0;  ///< above 0: the integer that is 1, and values are sRGB-encoded
+};
+
+/// Integers of attributes are stored colours, as Mitsuba takes them.
+double full_scale(PlyType type) {
+  switch (type) {
+    case PlyType::int8:
+      return std::numeric_limits<std::int8_t>::max();
+    case PlyType::uint8:
+      return std::numeric_limits<std::uint8_t>::max();
+    case PlyType::int16:
+      return std::numeric_limits<std::int16_t>::max();
+    case PlyType::uint16:
+      return std::numeric_limits<std::uint16_t>::max();
+    case PlyType::int32:
+      return std::numeric_limits<std::int32_t>::max();
+    case PlyType::uint32:
+      return std::numeric_limits<std::uint32_t>::max();
+    case PlyType::float32:
+    case PlyType::float64:
+      break;
+  }
+  return 0;
 }
 
 template <typename Input>
@@ -172,10 +89,7 @@ class BodyReader {
   }
 
   bool check(const PlyElement& vertices, const PlyElement& faces) {
-    for (const PlyProperty& property : vertices.properties) {
-      if (!property.count_type) has_[slot_of(property.name)] = true;
-    }
-    if (!has_[kX] || !has_[kY] || !has_[kZ]) {
+    if (!has(vertices, {"x", "y", "z"})) {
       complaints_.about_file("vertices without a place", "properties x, y and z of element 'vertex'");
       return false;
     }
@@ -188,6 +102,13 @@ class BodyReader {
     return false;
   }
 
+  static bool has(const PlyElement& element, std::initializer_list<std::string_view> names) {
+    return std::all_of(names.begin(), names.end(), [&](std::string_view name) {
+      return std::any_of(element.properties.begin(), element.properties.end(),
+                         [&](const PlyProperty& p) { return !p.count_type && p.name == name; });
+    });
+  }
+
   bool ends_early(const PlyElement& element, std::uint64_t row) {
     if (!input_.failed())
       complaints_.about_file(
@@ -196,7 +117,7 @@ class BodyReader {
     return false;
   }
 
-  // A count is believed as far as there are bytes for it.
+  // A count is believed as far as there are bytes for it: more rows than this cannot be read.
   std::size_t rows_to_expect(const PlyElement& element) const {
     std::size_t least = 0;
     for (const PlyProperty& property : element.properties)
@@ -227,44 +148,77 @@ class BodyReader {
     return true;
   }
 
-  bool read_vertices(const PlyElement& element) {
-    const bool has_normals = has_[kNx] && has_[kNy] && has_[kNz], has_texcoords = has_[kU] && has_[kV];
-    const std::size_t expected = rows_to_expect(element);
-    mesh_.positions.reserve(expected);
-    if (has_normals) mesh_.normals.reserve(expected);
-    if (has_texcoords) mesh_.texcoords.reserve(expected);
-    std::vector<int> slots;
-    for (const PlyProperty& property : element.properties) slots.push_back(slot_of(property.name));
-
-    std::array<float, kSlots + 1> values{};
-    for (std::uint64_t row = 0; row < element.count; ++row) {
-      for (std::size_t i = 0; i < slots.size(); ++i) {
-        const PlyProperty& property = element.properties[i];
-        double value = 0;
-        if (property.count_type) {
-          if (!skip_list(property)) return ends_early(element, row);
-          continue;
-        }
-        if (!input_.read(property.type, value)) return ends_early(element, row);
-        const double limit = slots[i] <= kZ ? kMaxCoordinate : std::numeric_limits<float>::max();
-        if (slots[i] != kSlots && !(std::abs(value) <= limit)) {
-          value_out_of_range(property, row, value, limit);
-          if (complaints_.gave_up()) return false;
-          value = 0;
-        }
-        values[static_cast<std::size_t>(slots[i])] = slots[i] == kSlots ? 0.0f : static_cast<float>(value);
-      }
-      mesh_.positions.push_back({values[kX], values[kY], values[kZ]});
-      if (has_normals) mesh_.normals.push_back({values[kNx], values[kNy], values[kNz]});
-      if (has_texcoords) mesh_.texcoords.push_back({values[kU], values[kV]});
+  // A value that somebody wants; false at the end of the file.
+  bool read_value(const PlyElement& element, const PlyProperty& property, const Column& column, std::uint64_t row,
+                  float& result) {
+    double value = 0;
+    if (!input_.read(property.type, value)) return false;
+    if (!(std::abs(value) <= column.limit)) {
+      complain(fmt::format("'{}' of {} {} is {}", property.name, element.name, row,
+                           input_.last().empty() ? fmt::format("{}", value) : std::string(input_.last())),
+               fmt::format("a number from {:g} to {:g}", -column.limit, column.limit));
+      value = 0;
     }
+    if (column.full_scale > 0) value = linear_from_srgb(std::clamp(value / column.full_scale, 0.0, 1.0));
+    result = static_cast<float>(value);
     return true;
   }
 
-  void value_out_of_range(const PlyProperty& property, std::uint64_t row, double value, double limit) {
-    complain(fmt::format("'{}' of vertex {} is {}", property.name, row,
-                         input_.last().empty() ? fmt::format("{}", value) : std::string(input_.last())),
-             fmt::format("a number from {:g} to {:g}", -limit, limit));
+  // Columns for attributes, which get `rows` values.
+  void add_attributes(const PlyElement& element, bool per_face, std::size_t rows, std::vector<Column>& columns) {
+    auto found = find_ply_attributes(element, per_face ? "face_" : "vertex_");
+    for (PlyAttribute& attribute : found) {
+      const std::size_t channels = attribute.properties.size();
+      MeshAttribute& stored = mesh_.attributes.emplace_back();
+      stored.name = std::move(attribute.name);
+      stored.channels = static_cast<std::uint32_t>(channels);
+      stored.per_face = per_face;
+      stored.values.resize(rows * channels);
+      for (std::size_t k = 0; k < channels; ++k) {
+        const PlyType type = element.properties[attribute.properties[k]].type;
+        columns[attribute.properties[k]] = {stored.values.data() + k, channels, kMaxFloat, full_scale(type)};
+      }
+    }
+  }
+
+  bool read_vertices(const PlyElement& element) {
+    const std::size_t rows = rows_to_expect(element);
+    std::vector<Column> columns(element.properties.size());
+    const auto store = [&](auto& values, std::initializer_list<std::string_view> names, double limit) {
+      if (!has(element, names)) return false;
+      values.resize(rows);
+      std::size_t component = 0;
+      for (const std::string_view name : names) {
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+          const PlyProperty& property = element.properties[i];
+          if (!property.count_type && property.name == name)
+            columns[i] = {values.data()->data() + component, names.size(), limit};
+        }
+        ++component;
+      }
+      return true;
+    };
+    store(mesh_.positions, {"x", "y", "z"}, kMaxCoordinate);
+    store(mesh_.normals, {"nx", "ny", "nz"}, kMaxFloat);
+    for (const auto& [u, v] : kPlyTexcoordNames) {
+      if (store(mesh_.texcoords, {u, v}, kMaxFloat)) break;
+    }
+    add_attributes(element, false, rows, columns);
+
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        const PlyProperty& property = element.properties[i];
+        Column& column = columns[i];
+        double ignored = 0;
+        const bool good = property.count_type      ? skip_list(property)
+                          : column.into != nullptr ? read_value(element, property, column, row, *column.into)
+                                                   : input_.read(property.type, ignored);
+        if (complaints_.gave_up()) return false;
+        if (!good) return ends_early(element, row);
+        column.into += column.stride;
+      }
+    }
+    return true;
   }
 
   // At the word read last, if the body has words.
@@ -278,16 +232,31 @@ class BodyReader {
 
   bool read_faces(const PlyElement& element) {
     mesh_.triangles.reserve(rows_to_expect(element));
-    double ignored = 0;
+    // Attributes of a face are those of all of its triangles: a row is read, then stored for each.
+    const std::size_t first_attribute = mesh_.attributes.size();
+    std::vector<Column> columns(element.properties.size());
+    add_attributes(element, true, 1, columns);
+    const std::span attributes = std::span(mesh_.attributes).subspan(first_attribute);
+    std::vector<std::vector<float>> values(attributes.size());
     for (std::uint64_t row = 0; row < element.count; ++row) {
-      for (const PlyProperty& property : element.properties) {
+      const std::size_t triangles_before = mesh_.triangles.size();
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        const PlyProperty& property = element.properties[i];
+        double ignored = 0;
         const bool good = is_face_list(property) ? read_face(property, row)
                           : property.count_type  ? skip_list(property)
-                                                 : input_.read(property.type, ignored);
+                          : columns[i].into != nullptr
+                              ? read_value(element, property, columns[i], row, *columns[i].into)
+                              : input_.read(property.type, ignored);
         if (complaints_.gave_up()) return false;
         if (!good) return ends_early(element, row);
       }
+      for (std::size_t a = 0; a < attributes.size(); ++a) {
+        for (std::size_t i = triangles_before; i < mesh_.triangles.size(); ++i)
+          values[a].insert(values[a].end(), attributes[a].values.begin(), attributes[a].values.end());
+      }
     }
+    for (std::size_t a = 0; a < attributes.size(); ++a) attributes[a].values = std::move(values[a]);
     return true;
   }
 
@@ -318,7 +287,6 @@ class BodyReader {
   MeshComplaints& complaints_;
   Input input_;
   MeshData mesh_;
-  std::array<bool, kSlots + 1> has_{};
   std::uint64_t vertex_count_ = 0;
 };
 
@@ -326,11 +294,11 @@ std::optional<MeshData> read_body(const PlyHeader& header, std::string_view byte
   const std::string_view body = bytes.substr(header.size);
   switch (header.format) {
     case PlyFormat::ascii:
-      return BodyReader<TextInput>(header, body, complaints).read();
+      return BodyReader<PlyTextInput>(header, body, complaints).read();
     case PlyFormat::little_endian:
-      return BodyReader<BinaryInput<false>>(header, body, complaints).read();
+      return BodyReader<PlyBinaryInput<false>>(header, body, complaints).read();
     case PlyFormat::big_endian:
-      return BodyReader<BinaryInput<true>>(header, body, complaints).read();
+      return BodyReader<PlyBinaryInput<true>>(header, body, complaints).read();
   }
   return std::nullopt;
 }

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,6 +86,85 @@ TEST(Ply, EveryTypeAndWhatIsSkipped) {
     EXPECT_EQ(mesh.texcoords.at(2), (std::array<float, 2>{-5, 0.25f})) << big;
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}})) << big;
   }
+}
+
+/// Names of attributes, with the values behind them: "vertex_color: 1 0 0".
+std::vector<std::string> attributes(const MeshData& mesh) {
+  std::vector<std::string> texts;
+  for (const MeshAttribute& attribute : mesh.attributes) {
+    EXPECT_EQ(attribute.per_face, attribute.name.starts_with("face_"));
+    EXPECT_EQ(attribute.values.size(),
+              attribute.channels * (attribute.per_face ? mesh.triangles.size() : mesh.positions.size()));
+    texts.push_back(attribute.name + ":" + std::to_string(attribute.channels));
+    for (const float value : attribute.values) texts.back() += fmt::format(" {:.4g}", value);
+  }
+  return texts;
+}
+
+/// An ascii file whose three vertices and two faces, a triangle and a quadrilateral, have these properties too.
+MeshData with_properties(const std::string& of_vertices, const std::string& vertex_values, const std::string& of_faces,
+                         const std::string& face_values) {
+  const auto properties = [](const std::string& names, const char* type) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size();) {
+      const std::size_t end = std::min(names.find(' ', i), names.size());
+      text += std::string("property ") + type + " " + names.substr(i, end - i) + "\n";
+      i = end + 1;
+    }
+    return text;
+  };
+  return read("ply\nformat ascii 1.0\nelement vertex 4\n" + properties("x y z " + of_vertices, "float") +
+              "element face 2\n" + properties(of_faces, "double") +
+              "property list uchar int vertex_indices\nend_header\n" + "0 0 0 " + vertex_values + "\n1 0 0 " +
+              vertex_values + "\n1 1 0 " + vertex_values + "\n0 1 0 " + vertex_values + "\n" + face_values +
+              " 3 0 1 2\n" + face_values + " 4 0 1 2 3\n");
+}
+
+TEST(PlyAttributes, AreGroupedByTheirNames) {
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(attributes(with_properties("r g b", "1 0.5 0", "weight_0 flow_x flow_y flow_z", "7 1 2 3")),
+            (Texts{"vertex_color:3 1 0.5 0 1 0.5 0 1 0.5 0 1 0.5 0", "face_weight:1 7 7 7",
+                   "face_flow:3 1 2 3 1 2 3 1 2 3"}));
+  EXPECT_EQ(attributes(with_properties("red green blue alpha", "1 2 3 4", "a_b_1 a_b_2 a_b_3", "4 5 6")),
+            (Texts{"vertex_color:3 1 2 3 1 2 3 1 2 3 1 2 3", "face_a_b:3 4 5 6 4 5 6 4 5 6"}));
+  EXPECT_EQ(attributes(with_properties("", "", "glow_r glow_g glow_b", "1 2 3")),
+            (Texts{"face_glow_color:3 1 2 3 1 2 3 1 2 3"}));
+}
+
+TEST(PlyAttributes, GroupsOfTwoOrFourAndOtherNamesAreNone) {
+  EXPECT_TRUE(
+      attributes(with_properties("pair_0 pair_1 quality", "1 2 3", "four_x four_y four_z four_w", "1 2 3 4")).empty());
+  EXPECT_TRUE(attributes(with_properties("r g", "1 2", "n_2 n_long", "1 2")).empty());
+  // Of one name the first counts; a group ends where another begins.
+  EXPECT_EQ(attributes(with_properties("a_0 b_0 a_1", "1 2 3", "", "")),
+            (std::vector<std::string>{"vertex_a:1 1 1 1 1", "vertex_b:1 2 2 2 2"}));
+}
+
+TEST(PlyAttributes, IntegersAreStoredColours) {
+  const MeshData mesh = read(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty ushort w_0\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n"
+      "0 0 0 255 188 0 65535\n1 0 0 255 188 0 0\n1 1 0 255 188 0 -5\n3 0 1 2\n");
+  EXPECT_EQ(attributes(mesh),
+            (std::vector<std::string>{"vertex_color:3 1 0.5029 0 1 0.5029 0 1 0.5029 0", "vertex_w:1 1 0 0"}));
+}
+
+TEST(PlyAttributes, ValuesOutOfRange) {
+  EXPECT_EQ(complaints("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                       "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                       "property float w_0\nend_header\n" +
+                       kCorners + "3 0 1 2 nan\n"),
+            R"(a.ply:14:9: error: 'w_0' of face 0 is nan
+   14 | 3 0 1 2 nan
+      |         ^~~
+accepted: a number from -3.40282e+38 to 3.40282e+38)");
+}
+
+TEST(Ply, TextureCoordinatesOfTheFirstPairOfNames) {
+  const MeshData mesh = with_properties("s t texture_u v texture_v", "1 2 3 4 5", "", "");
+  EXPECT_EQ(mesh.texcoords.at(0), (std::array<float, 2>{3, 5}));
+  EXPECT_EQ(with_properties("u t", "1 2", "", "").texcoords.size(), 0u);
 }
 
 TEST(PlyErrors, Header) {
