@@ -66,7 +66,7 @@ SceneTables sphere_mesh(int triangles) {
   ShapeRecord shape;
   shape.primitive_count = tables.triangle_count();
   tables.shapes = {shape};
-  tables.bsdf_parameters = {0.5f, 0.5f, 0.5f};
+  tables.parameters = {0.5f, 0.5f, 0.5f, 0.0f};
   tables.camera = room_scene().tables().tables.camera;
   tables.film = room_scene().tables().tables.film;
   return tables;

@@ -18,12 +18,12 @@ struct StoppedWave {
 
   StoppedWave(const SceneView& s, const KernelEntry& k) : scene(s), kernels(k) {
     kernels.generate_camera_rays(scene, job, memory.slots, memory.rays);
-    kernels.intersect_closest(scene, 1, ~1u, memory.rays, memory.hits, memory.light_hits);
+    kernels.intersect_closest(scene, 1, ~1u, memory.rays, memory);
     kernels.shade_surface(scene, BsdfKind::diffuse, 1, false, memory.hits[kDiffuse], memory.slots, memory.shadow_rays,
                           memory.next_rays);
     std::swap(memory.rays, memory.next_rays);
     clear();
-    kernels.intersect_closest(scene, 2, ~1u, memory.rays, memory.hits, memory.light_hits);
+    kernels.intersect_closest(scene, 2, ~1u, memory.rays, memory);
     kernels.shade_surface(scene, BsdfKind::diffuse, 2, false, memory.hits[kDiffuse], memory.slots, memory.shadow_rays,
                           memory.next_rays);
   }
@@ -56,12 +56,12 @@ void register_stages(const KernelEntry& kernels) {
   stage("intersect_closest", kernels, [&](StoppedWave& w) {
     for (Queue& q : w.memory.hits) q.count = 0;
     w.memory.light_hits.count = 0;
-    kernels.intersect_closest(w.scene, 2, ~1u, w.memory.rays, w.memory.hits, w.memory.light_hits);
+    kernels.intersect_closest(w.scene, 2, ~1u, w.memory.rays, w.memory);
     return w.memory.rays.count;
   });
   stage("intersect_emitters", kernels, [&](StoppedWave& w) {
     w.memory.light_hits.count = 0;
-    kernels.intersect_emitters(w.scene, w.memory.rays, w.memory.light_hits);
+    kernels.intersect_emitters(w.scene, w.memory.rays, w.memory);
     return w.memory.rays.count;
   });
   stage("shade_surface_diffuse", kernels, [&](StoppedWave& w) {

@@ -11,7 +11,7 @@ namespace norrsken::NORRSKEN_ISA {
 
 struct Absorb {
   struct Parameters {};
-  static NORRSKEN_INLINE Parameters load(const float*, UInt, Mask) { return {}; }
+  static NORRSKEN_INLINE Parameters load(const ParameterReader&) { return {}; }
   static NORRSKEN_INLINE Vec3f albedo(const Parameters&) { return {Float(0.0f), Float(0.0f), Float(0.0f)}; }
 };
 

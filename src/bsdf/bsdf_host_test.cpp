@@ -12,7 +12,7 @@ using ::testing::IsEmpty;
 SurfaceRecord surface_of(const Compiled& compiled) { return compiled.tables().surfaces.at(0); }
 
 std::vector<float> parameters_of(const Compiled& compiled, MaterialWord word) {
-  const auto first = compiled.tables().bsdf_parameters.begin() + (word & kMaterialOffsetMask);
+  const auto first = compiled.tables().parameters.begin() + (word & kMaterialOffsetMask);
   return {first, first + 3};
 }
 
@@ -33,7 +33,7 @@ TEST(DiffuseHost, ReflectanceZeroAbsorbs) {
   const Compiled c = compile_bsdf(R"(<bsdf type="diffuse"><float name="reflectance" value="0"/></bsdf>)");
   ASSERT_THAT(c.messages(), IsEmpty());
   EXPECT_EQ(surface_of(c).material_front, make_material(BsdfKind::absorb, 0));
-  EXPECT_THAT(c.tables().bsdf_parameters, IsEmpty());
+  EXPECT_THAT(c.tables().parameters, IsEmpty());
 }
 
 TEST(DiffuseHost, RefusesWhatReflectsMoreThanArrives) {
@@ -110,14 +110,14 @@ TEST(BsdfHost, ShapesThatReferToOneBsdfShareItsParameters) {
   const Compiled c = compile_shape(
       R"(<bsdf type="diffuse" id="a"/><shape type="sphere"><ref id="a"/></shape><shape type="sphere"><ref id="a"/></shape>)");
   ASSERT_THAT(c.messages(), IsEmpty());
-  EXPECT_EQ(c.tables().bsdf_parameters.size(), 3u);
+  EXPECT_EQ(c.tables().parameters.size(), 4u);
   EXPECT_EQ(c.tables().surfaces.at(0).material_front, c.tables().surfaces.at(1).material_front);
 }
 
 TEST(BsdfHost, AShapeWithoutBsdfIsDiffuseOfAHalf) {
   const Compiled c = compile_shape(kShape + kShape);
   EXPECT_EQ(material_kind(surface_of(c).material_front), BsdfKind::diffuse);
-  EXPECT_THAT(c.tables().bsdf_parameters, ElementsAre(0.5f, 0.5f, 0.5f));
+  EXPECT_THAT(c.tables().parameters, ElementsAre(0.5f, 0.5f, 0.5f, 0.0f));
 }
 
 TEST(BsdfHost, TellsMisspeltFromMissing) {

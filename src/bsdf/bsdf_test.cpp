@@ -14,8 +14,15 @@ namespace norrsken::isa_host {
 namespace {
 
 constexpr double kPi2 = 2 * M_PI;
-// Parameters that every model can be loaded from: the first three are a colour.
-constexpr float kParameters[16] = {0.8f, 0.5f, 0.3f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
+// Parameters that every model can be loaded from: the first four are a colour without a texture.
+constexpr float kParameters[16] = {0.8f, 0.5f, 0.3f, 0.0f, 0.5f, 0.5f, 0.5f, 0.5f};
+
+template <class Model>
+typename Model::Parameters load_model(const float* parameters) {
+  SceneView scene;
+  scene.parameters = parameters;
+  return Model::load(ParameterReader{scene, UInt(0u), TexturePoint{}, Mask{true}});
+}
 
 Vec3f direction(double cos_theta, double phi) {
   const double r = std::sqrt(std::max(0.0, 1 - cos_theta * cos_theta));
@@ -27,7 +34,7 @@ const Vec3f kViews[] = {direction(1, 0), direction(0.8, 1), direction(0.3, 4), d
 template <class Model>
 class EveryBsdf : public testing::Test {
  protected:
-  const typename Model::Parameters bsdf = Model::load(kParameters, UInt(0u), Mask{true});
+  const typename Model::Parameters bsdf = load_model<Model>(kParameters);
   std::mt19937_64 random{5};
   std::uniform_real_distribution<double> unit{0, 1};
 
@@ -164,7 +171,7 @@ TYPED_TEST(EveryBsdf, Reciprocity) {
 }
 
 TEST(Conductor, ReflectsAboutTheNormal) {
-  const auto bsdf = Conductor::load(kParameters, UInt(0u), Mask{true});
+  const auto bsdf = load_model<Conductor>(kParameters);
   const Vec3f wo = direction(0.3, 1);
   const BsdfSample s = Conductor::sample(bsdf, wo, Float(0.5f), {Float(0.5f), Float(0.5f)});
   EXPECT_EQ(s.wi.x.v, -wo.x.v);

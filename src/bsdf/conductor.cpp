@@ -3,7 +3,7 @@
 // Parameters
 //   material              string (default "none"): "none" reflects everything; metals are still to come
 //   specular_reflectance  color, 0 to 1 (default 1): factor on the reflected light
-// Stored: specular reflectance (3 floats). A factor of exactly 0 is stored as `absorb`.
+// Stored: specular reflectance (colour). A factor of exactly 0 is stored as `absorb`.
 // Side: the front reflects, the back is black.
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ Material compile_bsdf_conductor(Parameters& p, Builder& builder) {
   const glm::dvec3 factor = p.color("specular_reflectance", glm::dvec3(1), 0, 1);
   builder.describe(p.node(), fmt::format("specular reflectance {:.3g} {:.3g} {:.3g}", factor.r, factor.g, factor.b));
   if (factor == glm::dvec3(0)) return {};
-  return {.front = builder.add_material(BsdfKind::conductor, {factor.r, factor.g, factor.b})};
+  return {.front = builder.add_material(BsdfKind::conductor, ParameterBlock().add(ColorParameter{factor}))};
 }
 
 }  // namespace norrsken

@@ -11,14 +11,13 @@ namespace norrsken::NORRSKEN_ISA {
 
 struct Conductor {
   static constexpr bool kDelta = true;
+  static constexpr bool kUsesLobe = false;
 
   struct Parameters {
     Vec3f specular_reflectance;
   };
 
-  static NORRSKEN_INLINE Parameters load(const float* parameters, UInt offset, Mask active) {
-    return {gather3(parameters, offset, active)};
-  }
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0)}; }
 
   static NORRSKEN_INLINE Vec3f evaluate(const Parameters&, const Vec3f&, const Vec3f&) {
     return {Float(0.0f), Float(0.0f), Float(0.0f)};

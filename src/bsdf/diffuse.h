@@ -11,14 +11,13 @@ namespace norrsken::NORRSKEN_ISA {
 
 struct Diffuse {
   static constexpr bool kDelta = false;
+  static constexpr bool kUsesLobe = false;
 
   struct Parameters {
     Vec3f reflectance;
   };
 
-  static NORRSKEN_INLINE Parameters load(const float* parameters, UInt offset, Mask active) {
-    return {gather3(parameters, offset, active)};
-  }
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0)}; }
 
   static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     const Float cos_i = max(wi.z, Float(0.0f));

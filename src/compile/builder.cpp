@@ -7,10 +7,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 
 #include "base/text.h"
 #include "compile/plugins.h"
-#include "light/light_choice.h"
 #include "sampler/sampler_host.h"
 
 namespace norrsken {
@@ -73,20 +73,43 @@ Material Builder::bsdf(const Node& node) {
   return material;
 }
 
-MaterialWord Builder::add_material(BsdfKind kind, std::initializer_list<double> parameters) {
-  auto& stored = tables().bsdf_parameters;
-  const auto offset = static_cast<std::uint32_t>(stored.size());
-  for (const double value : parameters) stored.push_back(static_cast<float>(value));
-  if (stored.size() > kMaterialOffsetMask) {
-    diagnostics_.error({}, "the scene has too many bsdfs", fmt::format("{} parameters in all", kMaterialOffsetMask));
-    return make_material(BsdfKind::absorb, 0);
-  }
-  return make_material(kind, offset);
+ColorParameter Builder::color(Parameters& p, std::string_view name, glm::dvec3 fallback, double min, double max) {
+  return {p.color(name, fallback, min, max)};
 }
 
-std::uint32_t Builder::add_light(const LightRecord& light) {
+ScalarParameter Builder::scalar(Parameters& p, std::string_view name, double fallback, double min, double max,
+                                Ends ends) {
+  return {p.number(name, fallback, min, max, ends)};
+}
+
+std::uint32_t Builder::add_parameters(std::span<const float> values) {
+  auto& stored = tables().parameters;
+  const auto offset = static_cast<std::uint32_t>(stored.size());
+  stored.insert(stored.end(), values.begin(), values.end());
+  if (stored.size() <= kMaterialOffsetMask) return offset;
+  diagnostics_.error({}, "the scene has too many bsdfs, textures and lights",
+                     fmt::format("{} parameters in all", kMaterialOffsetMask));
+  stored.resize(offset);
+  return 0;
+}
+
+MaterialWord Builder::add_material(BsdfKind kind, const ParameterBlock& parameters) {
+  return make_material(kind, add_parameters(parameters.values()));
+}
+
+std::uint32_t Builder::add_light(const LightRecord& light, const LightPower& power) {
+  light_powers_.push_back(power);
   tables().lights.push_back(light);
   return static_cast<std::uint32_t>(tables().lights.size() - 1);
+}
+
+void Builder::add_environment(const Node& node, const LightRecord& light, const LightPower& power) {
+  if (tables().environment != kNone) {
+    diagnostics_.error(node.location, "the scene has more than one environment",
+                       "one emitter that surrounds the scene");
+    return;
+  }
+  tables().environment = add_light(light, power);
 }
 
 std::span<SurfaceRecord> Builder::surfaces_of(std::uint32_t shape) {
@@ -228,7 +251,9 @@ void Builder::compile_shape(const Node& node) {
     material = bsdf(*bsdf_child->node);
   } else {
     // Mitsuba's material for shapes that name none.
-    if (!default_material_) default_material_ = Material{.front = add_material(BsdfKind::diffuse, {0.5, 0.5, 0.5})};
+    if (!default_material_)
+      default_material_ =
+          Material{.front = add_material(BsdfKind::diffuse, ParameterBlock().add(ColorParameter{glm::dvec3(0.5)}))};
     material = *default_material_;
   }
   const std::optional<ShapeGeometry> geometry = plugin->compile(p, *this);
@@ -307,17 +332,12 @@ void Builder::append_spheres() {
   t.surfaces.insert(t.surfaces.end(), spheres_.begin(), spheres_.end());
 }
 
-void Builder::summarise() {
-  const SceneTables& t = tables();
+void Builder::bound_surfaces() {
+  SceneTables& t = tables();
+  if (t.surfaces.empty()) return;
   SceneInfo& info = scene_.info;
-  info.parameters = description_.parameters;
-  info.triangles = t.triangle_count();
-  info.spheres = t.sphere_count();
-  info.lights = t.lights.size();
-  if (!t.surfaces.empty()) {
-    std::fill_n(info.bounds_min, 3, std::numeric_limits<double>::infinity());
-    std::fill_n(info.bounds_max, 3, -std::numeric_limits<double>::infinity());
-  }
+  std::fill_n(info.bounds_min, 3, std::numeric_limits<double>::infinity());
+  std::fill_n(info.bounds_max, 3, -std::numeric_limits<double>::infinity());
   const auto extend = [&](const float* point, float radius) {
     for (int axis = 0; axis < 3; ++axis) {
       info.bounds_min[axis] = std::min(info.bounds_min[axis], double{point[axis]} - double{radius});
@@ -326,23 +346,46 @@ void Builder::summarise() {
   };
   for (const std::uint32_t vertex : t.triangle_vertices) extend(&t.positions[std::size_t{3} * vertex], 0);
   for (const SurfaceRecord& sphere : spheres_) extend(sphere.geometry, sphere.geometry[3]);
+
+  double diagonal2 = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double extent = info.bounds_max[axis] - info.bounds_min[axis];
+    t.center[axis] = static_cast<float>(info.bounds_min[axis] + extent / 2);
+    diagonal2 += extent * extent;
+  }
+  t.radius = static_cast<float>(std::sqrt(diagonal2) / 2);
+}
+
+void Builder::choose_lights() {
+  const double cross_section = std::numbers::pi * double{tables().radius} * double{tables().radius};
+  std::vector<double> powers;
+  for (const LightPower& p : light_powers_) powers.push_back(p.own + p.per_cross_section * cross_section);
+  choose_lights_by_power(tables().lights, powers);
+}
+
+void Builder::summarise() {
+  const SceneTables& t = tables();
+  SceneInfo& info = scene_.info;
+  info.parameters = description_.parameters;
+  info.triangles = t.triangle_count();
+  info.spheres = t.sphere_count();
+  info.lights = t.lights.size();
   info.width = t.film.width;
   info.height = t.film.height;
   info.samples_per_pixel = static_cast<int>(t.sampler.samples_per_pixel);
   info.max_depth = t.integrator.max_depth;
   info.rr_depth = t.integrator.rr_depth;
   info.emitter_samples = t.integrator.emitter_samples;
-  info.integrator = t.integrator.name;
   info.table_bytes = bytes_of(t.positions) + bytes_of(t.normals) + bytes_of(t.texcoords) +
                      bytes_of(t.triangle_vertices) + bytes_of(t.surfaces) + bytes_of(t.shapes) +
-                     bytes_of(t.bsdf_parameters) + bytes_of(t.lights);
+                     bytes_of(t.parameters) + bytes_of(t.texels) + bytes_of(t.lights);
 }
 
 LoadedScene Builder::build(const LoadOptions& options) {
   const Node& root = *description_.scene;
   Parameters p = parameters(root);
   tables().integrator = compile_chosen(p.child("integrator"), "integrator", "path", options.integrator,
-                                       integrator_plugins(), tables().integrator.name);
+                                       integrator_plugins(), scene_.info.integrator);
   compile_sensor(p, options);
   for (const Node::Child* child : p.children("bsdf")) bsdf(*child->node);
   const auto shapes = p.children("shape");
@@ -355,7 +398,8 @@ LoadedScene Builder::build(const LoadOptions& options) {
     diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
   }
   append_spheres();
-  choose_lights_by_power(tables().lights);
+  bound_surfaces();
+  choose_lights();
   summarise();
   return std::move(scene_);
 }

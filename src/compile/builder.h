@@ -1,8 +1,8 @@
 // What plugins fill the scene's tables through: services that they share, and the common part of each kind.
 #pragma once
 
+#include <bit>
 #include <glm/vec3.hpp>
-#include <initializer_list>
 #include <map>
 #include <optional>
 #include <span>
@@ -12,6 +12,7 @@
 #include "compile/compile.h"
 #include "compile/plugin_table.h"
 #include "formats/mesh_data.h"
+#include "light/light_choice.h"
 #include "scene/parameters.h"
 
 namespace norrsken {
@@ -43,6 +44,49 @@ struct ShapeGeometry {
 /// For a film that does not fit `memory` bytes.
 std::string film_memory_message(int width, int height, std::uint64_t memory);
 
+/// A parameter that may be a texture; `value` is then a colour to describe it by.
+struct ColorParameter {
+  glm::dvec3 value;
+  TextureWord texture = 0;
+};
+struct ScalarParameter {
+  double value;
+  TextureWord texture = 0;
+};
+
+/// A model's parameters in the order in which its kernel's ParameterReader counts them.
+class ParameterBlock {
+ public:
+  /// 4 floats: `color(k)`
+  ParameterBlock& add(const ColorParameter& color) {
+    add_values(color.value);
+    values_.push_back(std::bit_cast<float>(color.texture));
+    return *this;
+  }
+  /// 2 floats: `scalar(k)`
+  ParameterBlock& add(const ScalarParameter& scalar) {
+    values_.push_back(static_cast<float>(scalar.value));
+    values_.push_back(std::bit_cast<float>(scalar.texture));
+    return *this;
+  }
+  /// 1 float: `number(k)`
+  ParameterBlock& add(double number) {
+    values_.push_back(static_cast<float>(number));
+    return *this;
+  }
+  /// 3 floats: `numbers3(k)`
+  ParameterBlock& add_values(const glm::dvec3& v) { return add(v.x).add(v.y).add(v.z); }
+  /// 1 float that holds the bits of a word.
+  ParameterBlock& add_word(std::uint32_t word) {
+    values_.push_back(std::bit_cast<float>(word));
+    return *this;
+  }
+  std::span<const float> values() const { return values_; }
+
+ private:
+  std::vector<float> values_;
+};
+
 class Builder {
  public:
   Builder(const Description& description, const FileSystem& files, Diagnostics& diagnostics)
@@ -59,10 +103,21 @@ class Builder {
 
   /// The material of a `bsdf` node; a node that several shapes refer to is compiled once.
   Material bsdf(const Node& node);
+  /// A colour, or a texture where a child node of that name stands; textures that tell their values are held against
+  /// the range too.
+  ColorParameter color(Parameters& p, std::string_view name, glm::dvec3 fallback, double min, double max);
+  ScalarParameter scalar(Parameters& p, std::string_view name, double fallback, double min, double max,
+                         Ends ends = Ends::closed);
+  /// Stores floats among the scene's parameters and returns their offset.
+  std::uint32_t add_parameters(std::span<const float> values);
   /// Stores a model's parameters and returns the word that leads to them.
-  MaterialWord add_material(BsdfKind kind, std::initializer_list<double> parameters);
+  MaterialWord add_material(BsdfKind kind, const ParameterBlock& parameters);
+  /// Says that models look at texture coordinates or tangents, which surface points then have.
+  void need_uv() { tables().needs_uv = true; }
   /// `light.prob` and the alias fields are filled in later. Returns the record's index.
-  std::uint32_t add_light(const LightRecord& light);
+  std::uint32_t add_light(const LightRecord& light, const LightPower& power);
+  /// A light that surrounds the scene, of which there may be one.
+  void add_environment(const Node& node, const LightRecord& light, const LightPower& power);
   /// The records of a shape's primitives, until the next shape is added.
   std::span<SurfaceRecord> surfaces_of(std::uint32_t shape);
   bool is_sphere(std::uint32_t shape) const { return is_sphere_[shape]; }
@@ -83,6 +138,8 @@ class Builder {
   std::uint32_t add_shape(const ShapeGeometry& geometry, Material material);
   void add_triangles(const MeshData& mesh, Material material, std::uint32_t shape);
   void append_spheres();
+  void bound_surfaces();
+  void choose_lights();
   void summarise();
 
   template <class Function>
@@ -97,6 +154,7 @@ class Builder {
   std::map<const Node*, Material> materials_;
   std::optional<Material> default_material_;
   int bsdf_depth_ = 0;
+  std::vector<LightPower> light_powers_;
   std::vector<bool> is_sphere_;         ///< by shape
   std::vector<SurfaceRecord> spheres_;  ///< waiting to be put behind the triangles
 };

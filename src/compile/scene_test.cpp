@@ -27,7 +27,7 @@ Scene load_room(LoadOptions options = {}) {
 }
 
 std::vector<float> reflectance_front(const SceneTables& t, std::size_t primitive) {
-  const auto first = t.bsdf_parameters.begin() + (t.surfaces[primitive].material_front & kMaterialOffsetMask);
+  const auto first = t.parameters.begin() + (t.surfaces[primitive].material_front & kMaterialOffsetMask);
   return {first, first + 3};
 }
 

@@ -7,7 +7,6 @@ namespace norrsken {
 IntegratorSettings read_integrator(Parameters& p) {
   constexpr int kMax = std::numeric_limits<int>::max();
   IntegratorSettings settings;
-  settings.name = p.node().plugin;
   settings.max_depth = static_cast<int>(p.integer("max_depth", -1, -1, kMax));
   const int bounces = static_cast<int>(p.integer("bounces", -1, 0, kMax - 1));
   if (p.has("bounces")) {

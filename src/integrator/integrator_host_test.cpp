@@ -23,7 +23,6 @@ TEST(IntegratorHost, TakeTheirParameters) {
                                                                R"(<boolean name="hide_emitters" value="true"/>)"));
     ASSERT_THAT(c.messages(), IsEmpty());
     const IntegratorSettings& settings = c.tables().integrator;
-    EXPECT_EQ(settings.name, type);
     EXPECT_EQ(settings.max_depth, 7);
     EXPECT_EQ(settings.rr_depth, 3);
     EXPECT_EQ(settings.emitter_samples, 20);
@@ -37,7 +36,7 @@ TEST(IntegratorHost, TakeTheirParameters) {
 TEST(IntegratorHost, DefaultsAreMitsubas) {
   for (const Compiled& c : {compile_integrator(""), compile_integrator(integrator("path", ""))}) {
     const IntegratorSettings& settings = c.tables().integrator;
-    EXPECT_EQ(settings.name, "path");
+    EXPECT_EQ(c.info().integrator, "path");
     EXPECT_EQ(settings.max_depth, -1);
     EXPECT_EQ(settings.rr_depth, 5);
     EXPECT_EQ(settings.emitter_samples, 1);
@@ -93,7 +92,7 @@ TEST(IntegratorHost, TheCommandLinesReplacementKeepsTheParameters) {
   options.integrator = "whitted";
   const Compiled c = compile_integrator(integrator("path", integer("max_depth", "6")), options);
   ASSERT_THAT(c.messages(), IsEmpty());
-  EXPECT_EQ(c.tables().integrator.name, "whitted");
+  EXPECT_EQ(c.info().integrator, "whitted");
   EXPECT_EQ(c.tables().integrator.max_depth, 6);
   EXPECT_FALSE(c.tables().integrator.diffuse_bounces);
 }

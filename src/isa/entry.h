@@ -27,11 +27,13 @@ struct KernelEntry {
 
   // Single stages, for tests on made-up queues and for benchmarks.
   void (*generate_camera_rays)(const SceneView&, const WaveJob&, Queue& slots, Queue& rays);
+  /// These two fill the memory's hits, light hits and misses.
   void (*intersect_closest)(const SceneView&, std::uint32_t hit_number, std::uint32_t wanted_kinds, const Queue& rays,
-                            Queue* hits, Queue& light_hits);
-  void (*intersect_emitters)(const SceneView&, const Queue& rays, Queue& light_hits);
+                            WaveMemory&);
+  void (*intersect_emitters)(const SceneView&, const Queue& rays, WaveMemory&);
   void (*intersect_shadow)(const SceneView&, const Queue& shadow_rays, Queue& slots);
   void (*shade_emission)(const SceneView&, const Queue& light_hits, Queue& slots);
+  void (*shade_miss)(const SceneView&, const Queue& misses, Queue& slots);
   /// All hits of one BSDF kind at bounce `hit_number`, with light sampling and next rays; roulette if asked for.
   void (*shade_surface)(const SceneView&, BsdfKind, std::uint32_t hit_number, bool roulette, const Queue& hits,
                         const Queue& slots, Queue& shadow_rays, Queue& next_rays);

@@ -70,9 +70,9 @@ const KernelEntry kEntry = {
     accumulate_film,      accumulate_features,
     generate_camera_rays, intersect_closest,
     intersect_emitters,   intersect_shadow,
-    shade_emission,       run_shade_surface,
-    run_closest_rays,     run_occluded_rays,
-    run_sample_2d,
+    shade_emission,       shade_miss,
+    run_shade_surface,    run_closest_rays,
+    run_occluded_rays,    run_sample_2d,
 };
 
 }  // namespace norrsken::NORRSKEN_ISA

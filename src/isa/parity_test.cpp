@@ -102,7 +102,7 @@ class Parity : public testing::TestWithParam<AccelKind> {
 
   /// Hits of the made-up rays, found by the oracle, in both arenas alike.
   void find_hits(Made& made) const {
-    oracle().intersect_closest(scene(), 2, ~1u, made.memory.rays, made.memory.hits, made.memory.light_hits);
+    oracle().intersect_closest(scene(), 2, ~1u, made.memory.rays, made.memory);
     for (Queue& q : made.memory.hits) poison_tail(q, kHitFieldCount);
     poison_tail(made.memory.light_hits, kHitFieldCount);
   }
@@ -117,8 +117,8 @@ TEST_P(Parity, IntersectClosest) {
   for (const KernelEntry* kernels : wide_kernels()) {
     for (const std::uint32_t n : tail_lengths()) {
       Made a(n), b(n);
-      kernels->intersect_closest(scene(), 2, ~1u, a.memory.rays, a.memory.hits, a.memory.light_hits);
-      oracle().intersect_closest(scene(), 2, ~1u, b.memory.rays, b.memory.hits, b.memory.light_hits);
+      kernels->intersect_closest(scene(), 2, ~1u, a.memory.rays, a.memory);
+      oracle().intersect_closest(scene(), 2, ~1u, b.memory.rays, b.memory);
       for (const std::uint32_t kind : {kDiffuse, kConductor}) {
         expect_equal_queues(a.memory.hits[kind], b.memory.hits[kind], kHitFieldCount, kRaySlot,
                             {kRaySlot, kHitPrimitive, kHitMaterial}, label(*kernels, n));
@@ -138,8 +138,8 @@ TEST_P(Parity, IntersectEmittersFindsWhatIntersectClosestFinds) {
   for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
     for (const std::uint32_t n : tail_lengths()) {
       Made a(n), b(n);
-      (*k)->intersect_emitters(scene(), a.memory.rays, a.memory.light_hits);
-      oracle().intersect_closest(scene(), 2, 0u, b.memory.rays, b.memory.hits, b.memory.light_hits);
+      (*k)->intersect_emitters(scene(), a.memory.rays, a.memory);
+      oracle().intersect_closest(scene(), 2, 0u, b.memory.rays, b.memory);
       expect_equal_queues(a.memory.light_hits, b.memory.light_hits, kHitFieldCount, kRaySlot, {kRaySlot, kHitMaterial},
                           label(**k, n));
     }

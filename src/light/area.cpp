@@ -21,7 +21,7 @@ void compile_emitter_area(Parameters& p, Builder& builder, std::uint32_t shape) 
   }
   for (AreaLight& light : area_lights(builder, shape)) {
     for (int i = 0; i < 3; ++i) light.record.emission[i] = static_cast<float>(radiance[i]);
-    const std::uint32_t index = builder.add_light(light.record);
+    const std::uint32_t index = builder.add_light(light.record, surface_power(double{light.record.area}, radiance));
     for (const std::uint32_t primitive : light.primitives) {
       if (primitive == kNone) continue;
       SurfaceRecord& surface = builder.surfaces_of(shape)[primitive];

@@ -11,7 +11,8 @@ namespace norrsken::NORRSKEN_ISA {
 
 template <bool is_triangle>
 struct FlatAreaLight {
-  static NORRSKEN_INLINE LightSample sample(const Light& light, const Vec3f& reference, Vec2f u) {
+  static NORRSKEN_INLINE LightSample sample(const SceneView&, const Light& light, const Vec3f& reference, Vec2f u,
+                                            Mask) {
     const Vec2f b = is_triangle ? warp_to_triangle(u) : u;
     const Vec3f point = fma(light.edge1, b.x, fma(light.edge2, b.y, light.origin));
     const Vec3f to_light = point - reference;
@@ -22,7 +23,8 @@ struct FlatAreaLight {
     return {fma(light.normal, scale * Float(kOffsetUlps), point), pdf, light.emission, facing > Float(0.0f)};
   }
 
-  static NORRSKEN_INLINE Float pdf_sa(const Light& light, const Vec3f&, const Vec3f& direction, Float distance) {
+  static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light& light, const Vec3f&, const Vec3f& direction,
+                                      Float distance, Mask) {
     return pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, -dot(direction, light.normal));
   }
 };

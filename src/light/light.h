@@ -1,8 +1,12 @@
 // Choosing a light, and what every kind of light gives to next-event estimation.
 //
 // A kind is a struct with
-//   static LightSample sample(const Light&, const Vec3f& reference, Vec2f u);
-//   static Float pdf_sa(const Light&, const Vec3f& reference, const Vec3f& direction, Float distance);
+//   static LightSample sample(const SceneView&, const Light&, const Vec3f& reference, Vec2f u, Mask active);
+//   static Float pdf_sa(const SceneView&, const Light&, const Vec3f& reference, const Vec3f& direction,
+//                       Float distance, Mask active);
+// and, if rays to nowhere see it,
+//   static Vec3f radiance(const SceneView&, const Light&, const Vec3f& direction, Mask active);
+// Such lights put their sampled point two scene radii away, behind everything.
 #pragma once
 
 #include "math/frame.h"
@@ -15,6 +19,7 @@ namespace norrsken::NORRSKEN_ISA {
 struct Light {
   Float area;
   Vec3f origin, edge1, edge2, normal, emission;
+  UInt parameters;  ///< offset of what else the kind keeps in the scene's parameters
 };
 
 /// A point on a light, seen from a reference point. `pdf_sa` does not count the choice of the light.
@@ -36,20 +41,22 @@ enum LightField : std::uint32_t {
   kLightEdge1 = 8,
   kLightEdge2 = 11,
   kLightNormal = 14,
-  kLightEmission = 17
+  kLightEmission = 17,
+  kLightParameters = 20
 };
-static_assert(kLightFloats == 20);
+static_assert(kLightFloats == 21);
 
 NORRSKEN_INLINE Light broadcast_light(const LightRecord& r) {
-  return {Float(r.area),      broadcast(r.origin), broadcast(r.edge1),
-          broadcast(r.edge2), broadcast(r.normal), broadcast(r.emission)};
+  return {Float(r.area),       broadcast(r.origin),   broadcast(r.edge1), broadcast(r.edge2),
+          broadcast(r.normal), broadcast(r.emission), UInt(r.parameters)};
 }
 NORRSKEN_INLINE Light gather_light(const LightRecord* records, UInt index, Mask active) {
   const auto* base = reinterpret_cast<const float*>(records);
   const UInt first = index * UInt(kLightFloats);
-  return {gather(base + kLightArea, first, active),    gather3(base + kLightOrigin, first, active),
-          gather3(base + kLightEdge1, first, active),  gather3(base + kLightEdge2, first, active),
-          gather3(base + kLightNormal, first, active), gather3(base + kLightEmission, first, active)};
+  return {gather(base + kLightArea, first, active),           gather3(base + kLightOrigin, first, active),
+          gather3(base + kLightEdge1, first, active),         gather3(base + kLightEdge2, first, active),
+          gather3(base + kLightNormal, first, active),        gather3(base + kLightEmission, first, active),
+          gather_uint(base + kLightParameters, first, active)};
 }
 
 /// Alias method (Walker 1977, Vose 1991): u.x picks a column, u.y one of its two lights. One number for both would

@@ -7,21 +7,30 @@
 
 namespace norrsken {
 
-double light_power(const LightRecord& light) {
-  const double size = light.kind == LightKind::point ? 4 * std::numbers::pi : std::numbers::pi * double{light.area};
-  return size * luminance(double{light.emission[0]}, double{light.emission[1]}, double{light.emission[2]});
+namespace {
+
+double luminance_of(const glm::dvec3& color) { return luminance(color.r, color.g, color.b); }
+
+}  // namespace
+
+LightPower surface_power(double area, const glm::dvec3& radiance) {
+  return {.own = std::numbers::pi * area * luminance_of(radiance)};
+}
+LightPower point_power(const glm::dvec3& intensity) { return {.own = 4 * std::numbers::pi * luminance_of(intensity)}; }
+LightPower environment_power(const glm::dvec3& radiance) {
+  return {.per_cross_section = 4 * std::numbers::pi * luminance_of(radiance)};
 }
 
-void choose_lights_by_power(std::span<LightRecord> lights) {
+void choose_lights_by_power(std::span<LightRecord> lights, std::span<const double> powers) {
   double total = 0;
-  for (const LightRecord& light : lights) total += light_power(light);
+  for (const double power : powers) total += power;
   const auto count = static_cast<double>(lights.size());
 
   // Each light's probability in units of a column of the table, sorted into columns with room and columns too full.
   std::vector<double> level(lights.size());
   std::vector<std::uint32_t> small, large;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    level[i] = total > 0 ? light_power(lights[i]) / total * count : 1;
+    level[i] = total > 0 ? powers[i] / total * count : 1;
     lights[i].prob = static_cast<float>(level[i] / count);
     lights[i].alias_prob = 1;
     lights[i].alias = i;

@@ -1,20 +1,30 @@
 // How next-event estimation chooses among lights.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <span>
 
 #include "tables/scene_tables.h"
 
 namespace norrsken {
 
-/// Power of a light in the sense of luminance: pi A L for a surface that emits radiance L to one side, 4 pi I for a
-/// point of radiant intensity I.
-double light_power(const LightRecord& light);
+/// How much a light sends into the scene, in the sense of luminance.
+struct LightPower {
+  double own = 0;                ///< of lights in the scene: pi A L of a surface, 4 pi I of a point
+  double per_cross_section = 0;  ///< of lights around it: what crosses a unit of area, times the scene's pi R^2
+};
+
+/// pi A L, for a surface that emits radiance L to one side.
+LightPower surface_power(double area, const glm::dvec3& radiance);
+/// 4 pi I, for a point of radiant intensity I.
+LightPower point_power(const glm::dvec3& intensity);
+/// 4 pi L for each unit of cross-section, for an environment of (mean) radiance L.
+LightPower environment_power(const glm::dvec3& radiance);
 
 /// Fills `prob`, `alias_prob` and `alias` of every record so that a light is chosen with probability proportional to
-/// its power; uniformly if none has any.
+/// its power, which `powers` has for each; uniformly if none has any.
 ///
 /// Source: Vose 1991, A Linear Algorithm for Generating Random Numbers with a Given Distribution.
-void choose_lights_by_power(std::span<LightRecord> lights);
+void choose_lights_by_power(std::span<LightRecord> lights, std::span<const double> powers);
 
 }  // namespace norrsken

@@ -10,14 +10,9 @@
 namespace norrsken {
 namespace {
 
-std::vector<LightRecord> points(const std::vector<float>& intensities) {
-  std::vector<LightRecord> lights;
-  for (const float intensity : intensities) {
-    LightRecord light{};
-    light.kind = LightKind::point;
-    for (float& channel : light.emission) channel = intensity;
-    lights.push_back(light);
-  }
+std::vector<LightRecord> chosen_by(const std::vector<double>& powers) {
+  std::vector<LightRecord> lights(powers.size());
+  choose_lights_by_power(lights, powers);
   return lights;
 }
 
@@ -34,11 +29,10 @@ std::vector<double> probabilities_of_table(const std::vector<LightRecord>& light
   return result;
 }
 
-void expect_proportional(const std::vector<float>& powers) {
-  auto lights = points(powers);
-  choose_lights_by_power(lights);
+void expect_proportional(const std::vector<double>& powers) {
+  const auto lights = chosen_by(powers);
   double total = 0, prob_total = 0;
-  for (const float power : powers) total += power;
+  for (const double power : powers) total += power;
   const auto table = probabilities_of_table(lights);
   for (std::size_t i = 0; i < powers.size(); ++i) {
     EXPECT_NEAR(lights[i].prob, powers[i] / total, 1e-7) << i;
@@ -55,14 +49,13 @@ TEST(LightChoice, TableAndProbabilitiesAreProportionalToPower) {
   expect_proportional({1000, 1, 1, 1, 1});
   expect_proportional({0, 0, 5, 0, 1});
   std::mt19937 random(1);
-  std::vector<float> many(1000);
-  for (float& power : many) power = std::exp(std::normal_distribution<float>(0, 3)(random));
+  std::vector<double> many(1000);
+  for (double& power : many) power = std::exp(std::normal_distribution<double>(0, 3)(random));
   expect_proportional(many);
 }
 
 TEST(LightChoice, LightsWithoutPowerAreNeverChosen) {
-  auto lights = points({0, 3, 0, 1e-3f, 0});
-  choose_lights_by_power(lights);
+  const auto lights = chosen_by({0, 3, 0, 1e-3, 0});
   for (const std::size_t i : {0u, 2u, 4u}) {
     EXPECT_EQ(lights[i].prob, 0);
     EXPECT_EQ(probabilities_of_table(lights)[i], 0);
@@ -70,24 +63,18 @@ TEST(LightChoice, LightsWithoutPowerAreNeverChosen) {
 }
 
 TEST(LightChoice, WithoutAnyPowerAllAreAlike) {
-  auto lights = points({0, 0, 0, 0});
-  choose_lights_by_power(lights);
+  const auto lights = chosen_by({0, 0, 0, 0});
   for (const LightRecord& light : lights) EXPECT_EQ(light.prob, 0.25f);
   for (const double p : probabilities_of_table(lights)) EXPECT_EQ(p, 0.25);
 }
 
-TEST(LightChoice, NoLightsAreNoTrouble) { choose_lights_by_power({}); }
+TEST(LightChoice, NoLightsAreNoTrouble) { choose_lights_by_power({}, {}); }
 
 TEST(LightPower, IsLuminanceTimesAreaTimesSolidAngle) {
-  LightRecord light{};
-  light.kind = LightKind::parallelogram;
-  light.area = 4;
-  for (float& channel : light.emission) channel = 10;
-  EXPECT_NEAR(light_power(light), 40 * std::numbers::pi, 1e-9);
-  light.kind = LightKind::point;
-  EXPECT_NEAR(light_power(light), 40 * std::numbers::pi, 1e-9);
-  light.emission[0] = light.emission[2] = 0;
-  EXPECT_NEAR(light_power(light) / (40 * std::numbers::pi), 0.7152, 1e-4);
+  EXPECT_NEAR(surface_power(4, glm::dvec3(10)).own, 40 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(point_power(glm::dvec3(10)).own, 40 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(point_power({0, 10, 0}).own / (40 * std::numbers::pi), 0.7152, 1e-4);
+  EXPECT_NEAR(environment_power(glm::dvec3(10)).per_cross_section, 40 * std::numbers::pi, 1e-9);
 }
 
 }  // namespace

@@ -181,9 +181,9 @@ TEST(AreaEmitter, ShinesWithOneUnlessTold) {
 
 TEST(EmitterHost, RefusesOthers) {
   EXPECT_THAT(compile_emitter(R"(<emitter type="envmap"/>)").messages(),
-              ElementsAre("error: emitter 'envmap' is not supported yet [area, point]"));
+              ElementsAre("error: emitter 'envmap' is not supported yet [area, constant, point]"));
   EXPECT_THAT(compile_emitter(R"(<emitter type="pont"/>)").messages(),
-              ElementsAre("error: unknown emitter 'pont', did you mean 'point'? [area, point]"));
+              ElementsAre("error: unknown emitter 'pont', did you mean 'point'? [area, constant, point]"));
 }
 
 TEST(EmitterHost, BrokenShapesEmittersAreCheckedToo) {

@@ -28,7 +28,7 @@ void compile_emitter_point(Parameters& p, Builder& builder, std::uint32_t shape)
     light.origin[i] = static_cast<float>(position[i]);
     light.emission[i] = static_cast<float>(intensity[i]);
   }
-  builder.add_light(light);
+  builder.add_light(light, point_power(intensity));
   builder.describe(p.node(), fmt::format("intensity {:.6g} {:.6g} {:.6g}", intensity.r, intensity.g, intensity.b));
 }
 

@@ -1,6 +1,7 @@
 // Next-event estimation over whatever kinds of light the scene has.
 #pragma once
 
+#include "light/constant.h"
 #include "light/flat_area.h"
 #include "light/light.h"
 #include "light/point.h"
@@ -11,7 +12,7 @@ namespace norrsken::NORRSKEN_ISA {
 struct LightChoice {
   LightSample sample;
   Float prob;  ///< of the light
-  Mask delta;  ///< a point: no other way of sampling finds it
+  Mask delta;  ///< a point or a direction: no other way of sampling finds it
 };
 
 NORRSKEN_INLINE LightSample select(Mask m, const LightSample& a, const LightSample& b) {
@@ -19,36 +20,26 @@ NORRSKEN_INLINE LightSample select(Mask m, const LightSample& a, const LightSamp
           (m & a.valid) | ((!m) & b.valid)};
 }
 
+NORRSKEN_INLINE UInt gather_light_kind(const SceneView& scene, UInt light, Mask active) {
+  return gather_uint(reinterpret_cast<const float*>(scene.lights) + kLightKind, light * UInt(kLightFloats), active);
+}
+
 template <class Model>
 NORRSKEN_INLINE void add_light_kind(LightKind kind, bool is_delta, const SceneView& scene, UInt light, UInt kinds,
                                     const Vec3f& reference, Vec2f u, Mask active, LightChoice& choice) {
   const Mask of_kind = active & (kinds == UInt(static_cast<std::uint32_t>(kind)));
   if (none(of_kind)) return;
-  const LightSample sample = Model::sample(gather_light(scene.lights, light, of_kind), reference, u);
+  const LightSample sample = Model::sample(scene, gather_light(scene.lights, light, of_kind), reference, u, of_kind);
   choice.sample = select(of_kind, sample, choice.sample);
   if (is_delta) choice.delta |= of_kind;
 }
 
-/// `pick` chooses the light, `u` the point on it. With one light nothing is looked up.
-NORRSKEN_INLINE LightChoice sample_one_light(const SceneView& scene, const Vec3f& reference, Vec2f pick, Vec2f u,
-                                             Mask active) {
+/// Not inlined: every BSDF would repeat the code of every kind of light.
+__attribute__((noinline)) inline LightChoice sample_one_of_many_lights(const SceneView& scene, const Vec3f& reference,
+                                                                       Vec2f pick, Vec2f u, Mask active) {
   const Mask never = Float(1.0f) < Float(0.0f);
-  if (scene.light_count == 1) {
-    const LightRecord& record = scene.lights[0];
-    const Light light = broadcast_light(record);
-    switch (record.kind) {
-#define NORRSKEN_LIGHT(kind, Model, is_delta) \
-  case LightKind::kind:                       \
-    return {Model::sample(light, reference, u), Float(1.0f), is_delta ? !never : never};
-#include "light/list.def"
-#undef NORRSKEN_LIGHT
-      case LightKind::count:
-        break;
-    }
-  }
   const UInt light = pick_light(scene, pick, active);
-  const auto* base = reinterpret_cast<const float*>(scene.lights);
-  const UInt kinds = gather_uint(base + kLightKind, light * UInt(kLightFloats), active);
+  const UInt kinds = gather_light_kind(scene, light, active);
   LightChoice choice{{reference, Float(1.0f), {Float(0.0f), Float(0.0f), Float(0.0f)}, never},
                      light_prob(scene, light, active),
                      never};
@@ -60,20 +51,52 @@ NORRSKEN_INLINE LightChoice sample_one_light(const SceneView& scene, const Vec3f
   return choice;
 }
 
+/// `pick` chooses the light, `u` the point on it. The one parallelogram or point of a simple scene is sampled in place.
+NORRSKEN_INLINE LightChoice sample_one_light(const SceneView& scene, const Vec3f& reference, Vec2f pick, Vec2f u,
+                                             Mask active) {
+  if (scene.light_count == 1) {
+    const Mask never = Float(1.0f) < Float(0.0f);
+    const LightRecord& record = scene.lights[0];
+    if (record.kind == LightKind::parallelogram) {
+      return {FlatAreaLight<false>::sample(scene, broadcast_light(record), reference, u, active), Float(1.0f), never};
+    }
+    if (record.kind == LightKind::point) {
+      return {PointLight::sample(scene, broadcast_light(record), reference, u, active), Float(1.0f), !never};
+    }
+  }
+  return sample_one_of_many_lights(scene, reference, pick, u, active);
+}
+
 /// The density with which `sample_one_light` finds the point `distance` along `direction`, which lies on `light`.
-NORRSKEN_INLINE Float light_pdf_sa(const SceneView& scene, UInt light, const Vec3f& reference, const Vec3f& direction,
-                                   Float distance, Mask active) {
-  const auto* base = reinterpret_cast<const float*>(scene.lights);
-  const UInt kinds = gather_uint(base + kLightKind, light * UInt(kLightFloats), active);
+inline Float light_pdf_sa(const SceneView& scene, UInt light, const Vec3f& reference, const Vec3f& direction,
+                          Float distance, Mask active) {
+  const UInt kinds = gather_light_kind(scene, light, active);
   const Light lanes = gather_light(scene.lights, light, active);
   Float pdf(0.0f);
-#define NORRSKEN_LIGHT(kind, Model, is_delta)                                                 \
-  if (!is_delta && (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind)))) \
-    pdf = select(kinds == UInt(static_cast<std::uint32_t>(LightKind::kind)),                  \
-                 Model::pdf_sa(lanes, reference, direction, distance), pdf);
+#define NORRSKEN_LIGHT(kind, Model, is_delta)                                                           \
+  if (!is_delta && (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind)))) {         \
+    const Mask of_kind = active & (kinds == UInt(static_cast<std::uint32_t>(LightKind::kind)));         \
+    if (any(of_kind))                                                                                   \
+      pdf = select(of_kind, Model::pdf_sa(scene, lanes, reference, direction, distance, of_kind), pdf); \
+  }
 #include "light/list.def"
 #undef NORRSKEN_LIGHT
   return pdf * light_prob(scene, light, active);
+}
+
+/// What a ray to nowhere sees: the scene's environment.
+inline Vec3f environment_radiance(const SceneView& scene, const Vec3f& direction, Mask active) {
+  const LightRecord& record = scene.lights[scene.environment];
+  const Light light = broadcast_light(record);
+  switch (record.kind) {
+#define NORRSKEN_ENVIRONMENT(kind, Model) \
+  case LightKind::kind:                   \
+    return Model::radiance(scene, light, direction, active);
+#include "light/environments.def"
+#undef NORRSKEN_ENVIRONMENT
+    default:
+      return {Float(0.0f), Float(0.0f), Float(0.0f)};
+  }
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

@@ -17,7 +17,8 @@ struct SphereAreaLight {
   }
 
   /// edge1 = (radius, 1 for a flipped normal, 0). A flipped sphere shines inwards.
-  static NORRSKEN_INLINE LightSample sample(const Light& light, const Vec3f& reference, Vec2f u) {
+  static NORRSKEN_INLINE LightSample sample(const SceneView&, const Light& light, const Vec3f& reference, Vec2f u,
+                                            Mask) {
     const Float radius = light.edge1.x;
     const Mask flipped = light.edge1.y > Float(0.0f);
     const Vec3f axis = light.origin - reference;
@@ -55,8 +56,8 @@ struct SphereAreaLight {
             light.emission, cone | (flipped & (dot(to_light, normal) > Float(0.0f)))};
   }
 
-  static NORRSKEN_INLINE Float pdf_sa(const Light& light, const Vec3f& reference, const Vec3f& direction,
-                                      Float distance) {
+  static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light& light, const Vec3f& reference,
+                                      const Vec3f& direction, Float distance, Mask) {
     const Float radius = light.edge1.x;
     const Vec3f axis = light.origin - reference;
     const Float sin2 = radius * radius / dot(axis, axis);

@@ -12,6 +12,9 @@ inline constexpr float kInvPi = 0.318309886183791f;
 struct Vec2f {
   Float x, y;
 };
+NORRSKEN_INLINE Vec2f select(Mask m, const Vec2f& a, const Vec2f& b) {
+  return {select(m, a.x, b.x), select(m, a.y, b.y)};
+}
 
 /// Area-preserving and continuous map of the unit square to the unit disk.
 /// Source: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", 1997.

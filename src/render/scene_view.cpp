@@ -47,7 +47,14 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   view.triangle_vertices = tables.triangle_vertices.data();
   view.surfaces = tables.surfaces.data();
   view.shapes = tables.shapes.data();
-  view.bsdf_parameters = tables.bsdf_parameters.data();
+  view.parameters = tables.parameters.data();
+  view.texels = tables.texels.data();
+  view.texcoords = tables.texcoords.empty() ? nullptr : tables.texcoords.data();
+  view.texture_kinds = tables.texture_kinds;
+  view.needs_uv = tables.needs_uv;
+  view.environment = tables.environment;
+  std::copy_n(tables.center, 3, view.center);
+  view.radius = tables.radius;
   view.lights = tables.lights.data();
   view.triangle_count = tables.triangle_count();
   view.sphere_count = tables.sphere_count();
@@ -57,6 +64,7 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
     view.bsdf_kinds |= 1u << static_cast<std::uint32_t>(material_kind(s.material_back));
     view.any_area_light = view.any_area_light || s.light != kNone;
   }
+  view.any_resolved = view.bsdf_kinds >> kModelCount != 0;
   for (const LightRecord& light : tables.lights) view.light_kinds |= 1u << static_cast<std::uint32_t>(light.kind);
   view.any_smooth =
       std::any_of(tables.shapes.begin(), tables.shapes.end(), [](const ShapeRecord& s) { return s.smooth != 0; });

@@ -12,7 +12,9 @@ WaveArena::WaveArena(std::uint32_t slots) {
     visit(memory_.rays, kRayFieldCount);
     visit(memory_.next_rays, kRayFieldCount);
     for (Queue& q : memory_.hits) visit(q, kHitFieldCount);
+    visit(memory_.unresolved_hits, kHitFieldCount);
     visit(memory_.light_hits, kHitFieldCount);
+    visit(memory_.misses, kRayFieldCount);
     visit(memory_.shadow_rays, kShadowFieldCount);
   };
   std::size_t values = 0;

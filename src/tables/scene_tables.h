@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace norrsken {
@@ -11,17 +10,26 @@ namespace norrsken {
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// Scattering models as kernels tell them apart. Order and names come from src/bsdf/list.def; `absorb` (no scattering
-/// at all, also the back of a one-sided surface) is always 0.
+/// at all, also the back of a one-sided surface) is always 0. Behind the models come the adapters that are looked
+/// through at each hit (a mask, a blend): hits are never shaded with those.
 enum class BsdfKind : std::uint8_t {
   absorb,
 #define NORRSKEN_BSDF(kind, Model) kind,
 #include "bsdf/list.def"
 #undef NORRSKEN_BSDF
+#define NORRSKEN_BSDF_RESOLVED(kind, Adapter) kind,
+#include "bsdf/resolved.def"
+#undef NORRSKEN_BSDF_RESOLVED
   count
 };
+inline constexpr std::uint32_t kModelCount = 1
+#define NORRSKEN_BSDF(kind, Model) +1
+#include "bsdf/list.def"
+#undef NORRSKEN_BSDF
+    ;
 
 /// A BSDF in one word: bit 31 says that the surface also emits on this side, bits 24 to 30 hold the kind, the rest the
-/// offset of its first float in `bsdf_parameters`.
+/// offset of its first float in `parameters`.
 using MaterialWord = std::uint32_t;
 inline constexpr MaterialWord kEmitsBit = 0x80000000u;
 inline constexpr MaterialWord kMaterialKindMask = 0x7f000000u;
@@ -30,6 +38,24 @@ constexpr MaterialWord make_material(BsdfKind kind, std::uint32_t offset) {
   return (static_cast<std::uint32_t>(kind) << 24) | offset;
 }
 constexpr BsdfKind material_kind(MaterialWord word) { return static_cast<BsdfKind>((word & kMaterialKindMask) >> 24); }
+
+/// Textures as kernels tell them apart; 0 says that the parameter is a plain value.
+enum class TextureKind : std::uint8_t {
+  none,
+#define NORRSKEN_TEXTURE(kind, Model) kind,
+#include "texture/list.def"
+#undef NORRSKEN_TEXTURE
+  count
+};
+
+/// A texture in one word, as a material is: the kind, and the offset of its first float in `parameters`.
+using TextureWord = std::uint32_t;
+inline constexpr TextureWord kTextureKindMask = 0xff000000u;
+inline constexpr TextureWord kTextureOffsetMask = 0x00ffffffu;
+constexpr TextureWord make_texture(TextureKind kind, std::uint32_t offset) {
+  return (static_cast<std::uint32_t>(kind) << 24) | offset;
+}
+constexpr TextureKind texture_kind(TextureWord word) { return static_cast<TextureKind>(word >> 24); }
 
 /// One per primitive, in order: all triangles, then all spheres. 32 bytes, gathered field by field.
 struct SurfaceRecord {
@@ -43,8 +69,10 @@ struct SurfaceRecord {
 struct ShapeRecord {
   std::uint32_t first_primitive = 0;
   std::uint32_t primitive_count = 0;
-  std::uint32_t smooth = 0;        ///< 1: the triangles' vertices have shading normals
-  std::uint32_t flip_normals = 0;  ///< 1 (spheres): the normal points to the centre
+  std::uint32_t smooth = 0;                 ///< 1: the triangles' vertices have shading normals
+  std::uint32_t flip_normals = 0;           ///< 1 (spheres): the normal points to the centre
+  std::uint32_t has_texcoords = 0;          ///< 1: the triangles' vertices have texture coordinates
+  std::uint32_t object_from_world = kNone;  ///< spheres that are rotated: 9 floats in `parameters`, row by row
 };
 
 /// What next-event estimation chooses among. An area light is one record per triangle, parallelogram or sphere.
@@ -55,7 +83,7 @@ enum class LightKind : std::uint32_t {
   count
 };
 
-/// 20 floats: gathered when there are several lights, broadcast when there is one.
+/// 21 floats: gathered when there are several lights, broadcast when there is one.
 struct LightRecord {
   LightKind kind;
   float prob;        ///< probability of being chosen
@@ -66,7 +94,10 @@ struct LightRecord {
   float edge1[3];   ///< sphere: x = radius, y = 1 for a flipped normal
   float edge2[3];
   float normal[3];    ///< unit, on the side that emits
-  float emission[3];  ///< radiance (area lights) or radiant intensity (point), linear sRGB
+  float emission[3];  ///< radiance (area lights) or radiant intensity (point), linear sRGB; a mean if textured
+  /// Offset of what else the kind keeps in `parameters`: for the lights of surfaces a colour slot with the texture of
+  /// their radiance, if it has one; kNone if nothing.
+  std::uint32_t parameters = kNone;
 };
 
 /// A pinhole: film position (px, py) in pixels looks along normalize(base + px * du + py * dv), world space.
@@ -95,7 +126,6 @@ struct SamplerSettings {
 
 /// All integrators are settings of one loop.
 struct IntegratorSettings {
-  std::string name = "path";
   int max_depth = -1;           ///< as in Mitsuba: 1 emitters only, 2 direct light, -1 unbounded
   int rr_depth = 5;             ///< depth from which Russian roulette ends paths
   int emitter_samples = 1;      ///< shadow rays per hit
@@ -111,8 +141,14 @@ struct SceneTables {
   std::vector<std::uint32_t> triangle_vertices;  ///< 3 per triangle
   std::vector<SurfaceRecord> surfaces;           ///< triangles, then spheres
   std::vector<ShapeRecord> shapes;
-  std::vector<float> bsdf_parameters;
+  std::vector<float> parameters;  ///< of BSDFs, textures and lights, each at its own offset
+  std::vector<float> texels;      ///< of bitmaps and tables, each at its own offset
   std::vector<LightRecord> lights;
+  std::uint32_t texture_kinds = 0;    ///< bit k: TextureKind k occurs
+  bool needs_uv = false;              ///< some model looks at texture coordinates or tangents
+  std::uint32_t environment = kNone;  ///< index of the light that rays to nowhere see
+  float center[3] = {};               ///< of a sphere around all surfaces
+  float radius = 0;
   CameraRecord camera{};
   FilmSettings film;
   SamplerSettings sampler;

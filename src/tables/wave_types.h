@@ -21,12 +21,20 @@ struct SceneView {
   const std::uint32_t* triangle_vertices = nullptr;
   const SurfaceRecord* surfaces = nullptr;
   const ShapeRecord* shapes = nullptr;
-  const float* bsdf_parameters = nullptr;
+  const float* parameters = nullptr;
+  const float* texels = nullptr;
+  const float* texcoords = nullptr;  ///< null if no shape has any
   const LightRecord* lights = nullptr;
   std::uint32_t triangle_count = 0, sphere_count = 0, light_count = 0;
-  std::uint32_t bsdf_kinds = 0;   ///< bit k: BsdfKind k occurs
-  std::uint32_t light_kinds = 0;  ///< bit k: LightKind k occurs
+  std::uint32_t bsdf_kinds = 0;       ///< bit k: BsdfKind k occurs
+  std::uint32_t texture_kinds = 0;    ///< bit k: TextureKind k occurs
+  std::uint32_t light_kinds = 0;      ///< bit k: LightKind k occurs
+  std::uint32_t environment = kNone;  ///< index of the light that rays to nowhere see
+  float center[3] = {};               ///< of a sphere around all surfaces
+  float radius = 0;
   bool any_smooth = false;
+  bool any_resolved = false;  ///< materials that are looked through at each hit occur
+  bool needs_uv = false;      ///< something looks at texture coordinates or tangents
   bool any_area_light = false;
   CameraRecord camera;
   FilmSettings film;
@@ -60,12 +68,13 @@ struct Queue {
 
 /// One worker's memory for one wave.
 struct WaveMemory {
-  Queue slots;            ///< SlotField, one record per slot
-  Queue rays, next_rays;  ///< RayField
-  Queue hits[static_cast<std::size_t>(
-      BsdfKind::count)];  ///< HitField, one queue per BSDF kind; [0], absorb, for features alone
-  Queue light_hits;       ///< HitField
-  Queue shadow_rays;      ///< ShadowField
+  Queue slots;              ///< SlotField, one record per slot
+  Queue rays, next_rays;    ///< RayField
+  Queue hits[kModelCount];  ///< HitField, one queue per BSDF kind; [0], absorb, for features alone
+  Queue unresolved_hits;    ///< HitField: materials that are looked through before shading
+  Queue light_hits;         ///< HitField
+  Queue misses;             ///< RayField; only filled if the scene has an environment
+  Queue shadow_rays;        ///< ShadowField
 };
 
 /// Fields of the records, by number. src/wave/records.h has the lane types that go in and out.
@@ -100,7 +109,8 @@ enum RayField : std::uint32_t {
   kRayFieldCount
 };
 /// A hit is its ray and where it ended.
-enum HitField : std::uint32_t { kHitDistance = kRayFieldCount, kHitPrimitive, kHitMaterial, kHitFieldCount };
+/// kHitBump is only written and read if the scene has `any_resolved`.
+enum HitField : std::uint32_t { kHitDistance = kRayFieldCount, kHitPrimitive, kHitMaterial, kHitBump, kHitFieldCount };
 enum ShadowField : std::uint32_t {
   kShadowOriginX,
   kShadowOriginY,

@@ -10,9 +10,9 @@ namespace norrsken::NORRSKEN_ISA {
 inline Vec3f evaluate_texture(const SceneView& scene, UInt words, const TexturePoint& point, Mask active) {
   Vec3f color{Float(0.0f), Float(0.0f), Float(0.0f)};
   const UInt kind_bits = words & UInt(kTextureKindMask), offset = words & UInt(kTextureOffsetMask);
-#define NORRSKEN_TEXTURE(kind, Model)                                                                \
-  if (scene.texture_kinds & (1u << static_cast<std::uint32_t>(TextureKind::kind))) {                 \
-    const Mask of_kind = active & (kind_bits == UInt(make_texture(TextureKind::kind, 0)));           \
+#define NORRSKEN_TEXTURE(kind, Model)                                                                 \
+  if (scene.texture_kinds & (1u << static_cast<std::uint32_t>(TextureKind::kind))) {                  \
+    const Mask of_kind = active & (kind_bits == UInt(make_texture(TextureKind::kind, 0)));            \
     if (any(of_kind)) color = select(of_kind, Model::evaluate(scene, offset, point, of_kind), color); \
   }
 #include "texture/list.def"

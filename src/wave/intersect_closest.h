@@ -1,4 +1,4 @@
-// Stage: RAYS -> LIGHT HITS, and HITS by BSDF kind. Rays that meet nothing end here: there is no light at infinity yet.
+// Stage: RAYS -> LIGHT HITS, HITS by BSDF kind, and MISSES where the scene has an environment.
 #pragma once
 
 #include "camera/perspective.h"
@@ -14,39 +14,42 @@ NORRSKEN_INLINE UInt material_of(const SceneView& scene, UInt primitive, UInt pr
 
 /// `hit_number` 1: the rays come from the camera. Only hits of the BSDF kinds in the bit set `wanted_kinds` are kept.
 inline void intersect_closest(const SceneView& scene, std::uint32_t hit_number, std::uint32_t wanted_kinds,
-                              const Queue& rays, Queue* hits, Queue& light_hits) {
+                              const Queue& rays, WaveMemory& memory) {
   const bool from_camera = hit_number == 1;
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     Mask active = first_lanes(rays.count - i);
     Hit hit;
     hit.ray = load_ray(rays, i);
     const ClosestHit closest = intersect_closest_lanes(scene, from_camera, hit.ray.origin, hit.ray.direction, active);
-    active &= closest.t < Float(kInfinity);
-    if (from_camera) active &= closest.t <= distance_to_far_plane(scene.camera, hit.ray.direction);
+    Mask missed = !(closest.t < Float(kInfinity));
+    if (from_camera) missed |= !(closest.t <= distance_to_far_plane(scene.camera, hit.ray.direction));
+    missed &= active;
+    if (scene.environment != kNone && any(missed)) push(memory.misses, hit.ray, missed);
+    active &= !missed;
     hit.t = closest.t;
     hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
     hit.material = material_of(scene, hit.primitive, closest.primitive_side, active);
 
     const Mask emits = active & ((hit.material & UInt(kEmitsBit)) != UInt(0u));
-    if (any(emits)) push(light_hits, hit, emits);
+    if (any(emits)) push(memory.light_hits, hit, emits);
     const UInt kind_bits = hit.material & UInt(kMaterialKindMask);
     for (std::uint32_t kinds = scene.bsdf_kinds & wanted_kinds; kinds != 0; kinds &= kinds - 1) {
       const auto kind = static_cast<std::uint32_t>(__builtin_ctz(kinds));
       const Mask of_kind = active & (kind_bits == UInt(kind << 24));
-      if (any(of_kind)) push(hits[kind], hit, of_kind);
+      if (any(of_kind)) push(memory.hits[kind], hit, of_kind);
     }
   }
 }
 
 /// The same for a path's last ray, of which only emission counts: rays that do not point at a light are not traced.
 /// They start on surfaces, so what cannot come between two points of the scene need not be looked at.
-inline void intersect_emitters(const SceneView& scene, const Queue& rays, Queue& light_hits) {
+inline void intersect_emitters(const SceneView& scene, const Queue& rays, WaveMemory& memory) {
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     Mask active = first_lanes(rays.count - i);
     Hit hit;
     hit.ray = load_ray(rays, i);
     ClosestHit closest{Float(kInfinity), UInt(0u)};
-    if (scene.accel.kind == AccelKind::planes) {
+    if (scene.accel.kind == AccelKind::planes && scene.environment == kNone) {
       closest_in_planes(scene.accel, scene.accel.emitters, scene.accel.emitter_sphere_count, hit.ray.origin,
                         hit.ray.direction, closest);
       active &= closest.t < Float(kInfinity);
@@ -54,13 +57,15 @@ inline void intersect_emitters(const SceneView& scene, const Queue& rays, Queue&
       active &= !occluded_in_planes(scene.accel, hit.ray.origin, hit.ray.direction, closest.t);
     } else {
       closest = intersect_closest_lanes(scene, false, hit.ray.origin, hit.ray.direction, active);
-      active &= closest.t < Float(kInfinity);
+      const Mask missed = active & !(closest.t < Float(kInfinity));
+      if (scene.environment != kNone && any(missed)) push(memory.misses, hit.ray, missed);
+      active &= !missed;
     }
     hit.t = closest.t;
     hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
     hit.material = material_of(scene, hit.primitive, closest.primitive_side, active);
     active &= (hit.material & UInt(kEmitsBit)) != UInt(0u);
-    if (any(active)) push(light_hits, hit, active);
+    if (any(active)) push(memory.light_hits, hit, active);
   }
 }
 

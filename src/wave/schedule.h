@@ -3,12 +3,12 @@
 //   camera samples -> generate_camera_rays -> RAYS <-----------------------------+
 //                                              |                                 |
 //                              intersect_closest (last: _emitters)               |
-//                                |                            |                  |
-//                           LIGHT HITS                 HITS by BSDF kind         |
-//                                |                            |                  |
-//                          shade_emission               shade_surface ---> next rays
-//                                |                            |
-//                              SLOTS <--- intersect_shadow <--+ SHADOW RAYS
+//                    |           |                            |                  |
+//                  MISSES   LIGHT HITS                 HITS by BSDF kind         |
+//                    |           |                            |                  |
+//               shade_miss  shade_emission              shade_surface ---> next rays
+//                    |           |                            |
+//                    +-------> SLOTS <--- intersect_shadow <--+ SHADOW RAYS
 #pragma once
 
 #include "bsdf/absorb.h"
@@ -20,6 +20,7 @@
 #include "wave/intersect_shadow.h"
 #include "wave/shade_emission.h"
 #include "wave/shade_features.h"
+#include "wave/shade_miss.h"
 #include "wave/shade_surface.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -63,6 +64,8 @@ inline void shade_surfaces(const SceneView& scene, const ShadeSettings& settings
 NORRSKEN_INLINE void clear_hits(WaveMemory& memory) {
   for (Queue& q : memory.hits) q.count = 0;
   memory.light_hits.count = 0;
+  memory.unresolved_hits.count = 0;
+  memory.misses.count = 0;
 }
 
 /// Traces a wave's paths from camera to slots.
@@ -76,15 +79,18 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
     clear_hits(memory);
     memory.next_rays.count = 0;
     if (last && hit_number > 1) {
-      intersect_emitters(scene, memory.rays, memory.light_hits);
+      intersect_emitters(scene, memory.rays, memory);
     } else {
-      intersect_closest(scene, hit_number, last ? 0u : kAllScattering, memory.rays, memory.hits, memory.light_hits);
+      intersect_closest(scene, hit_number, last ? 0u : kAllScattering, memory.rays, memory);
     }
-    if (!(integrator.hide_emitters && hit_number == 1)) shade_emission(scene, memory.light_hits, memory.slots);
+    if (!(integrator.hide_emitters && hit_number == 1)) {
+      shade_emission(scene, memory.light_hits, memory.slots);
+      shade_miss(scene, memory.misses, memory.slots);
+    }
     if (last) break;
     // A path's last ray can only find an area light; without one there is no need to send it.
     const bool next_is_last = hit_number + 1 == max_depth;
-    const ShadeSettings settings{hit_number, 0, 0, !next_is_last || scene.any_area_light,
+    const ShadeSettings settings{hit_number, 0, 0, !next_is_last || scene.any_area_light || scene.environment != kNone,
                                  hit_number >= static_cast<std::uint32_t>(integrator.rr_depth)};
     shade_surfaces(scene, settings, memory, counts);
     const Queue finished = memory.rays;
@@ -101,7 +107,7 @@ inline void trace_features(const SceneView& scene, const WaveJob& job, WaveMemor
   }
   clear_hits(memory);
   counts.closest_rays += memory.rays.count;
-  intersect_closest(scene, 1, ~0u, memory.rays, memory.hits, memory.light_hits);
+  intersect_closest(scene, 1, ~0u, memory.rays, memory);
   shade_features<Absorb>(scene, memory.hits[0], memory.slots);
 #define NORRSKEN_BSDF(kind, Model) \
   shade_features<Model>(scene, memory.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory.slots);

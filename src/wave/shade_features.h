@@ -11,7 +11,7 @@ inline void shade_features(const SceneView& scene, const Queue& hits, Queue& slo
     const Mask active = first_lanes(hits.count - i);
     const Hit hit = load_hit(hits, i);
     const SurfacePoint surface = make_surface_point(scene, hit, active);
-    const auto bsdf = Model::load(scene.bsdf_parameters, hit.material & UInt(kMaterialOffsetMask), active);
+    const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));
     const Vec3f albedo = Model::albedo(bsdf);
     const UInt shape = gather_uint(surface_floats(scene) + 7, record_index(hit.primitive), active);
     const Vec3f along = hit.ray.direction * hit.t;

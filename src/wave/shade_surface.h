@@ -67,7 +67,9 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
   Vec2f u{Float(0.0f), Float(0.0f)};
   if (!Model::kDelta) u = sampler.sample_2d(key, dimension + hit_dimension::kBsdfDirection);
-  const BsdfSample sample = Model::sample(bsdf, wo, Float(0.0f), u);
+  Float lobe(0.0f);
+  if (Model::kUsesLobe) lobe = sampler.sample_1d(key, dimension + hit_dimension::kBsdfLobe);
+  const BsdfSample sample = Model::sample(bsdf, wo, lobe, u);
   Vec3f throughput = hit.ray.throughput * sample.weight;
   active &= sample.valid & (max_component(throughput) > Float(0.0f));
   if (settings.roulette) {
@@ -93,7 +95,7 @@ inline void shade_surface(const SceneView& scene, const ShadeSettings& settings,
     const Mask active = first_lanes(end - i);
     const Hit hit = load_hit(hits, i);
     const SurfacePoint surface = make_surface_point(scene, hit, active);
-    const auto bsdf = Model::load(scene.bsdf_parameters, hit.material & UInt(kMaterialOffsetMask), active);
+    const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));
     const Vec3f wo = surface.frame.to_local(-hit.ray.direction);
     const SampleKey key = load_sample_key(slots, hit.ray.slot, active);
     if (light_sampling)

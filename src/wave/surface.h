@@ -3,6 +3,8 @@
 
 #include "accel/intersect.h"
 #include "math/frame.h"
+#include "math/special.h"
+#include "texture/parameter_reader.h"
 #include "wave/records.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -13,7 +15,9 @@ struct SurfacePoint {
   Vec3f normal;  ///< geometric
   Frame frame;   ///< around the shading normal
   Float offset;  ///< bound of how far rounding may have moved the position off the surface, with reserve
-  UInt shape;
+  /// Only if the scene `needs_uv`: where textures look, and how the position moves with u and v.
+  TexturePoint texture;
+  Vec3f dp_du, dp_dv;
 };
 
 NORRSKEN_INLINE UInt record_index(UInt primitive) { return primitive * UInt(sizeof(SurfaceRecord) / sizeof(float)); }
@@ -22,22 +26,99 @@ NORRSKEN_INLINE const float* surface_floats(const SceneView& scene) {
   return reinterpret_cast<const float*>(scene.surfaces);
 }
 
-/// Interpolated shading normal of smooth triangles, barycentric coordinates recomputed from the position.
-inline Vec3f smooth_normal(const SceneView& scene, UInt primitive, const Vec3f& p, Mask active) {
+NORRSKEN_INLINE UInt shape_index(UInt shape) { return shape * UInt(sizeof(ShapeRecord) / sizeof(float)); }
+
+/// A point of a triangle: its corners, and its barycentric coordinates recomputed from the position.
+struct TrianglePoint {
+  UInt vertices[3];
+  Vec3f e1, e2;
+  Vec2f barycentric;  ///< weights of the second and third corner
+
+  NORRSKEN_INLINE Vec3f interpolate(const Vec3f v[3]) const {
+    return fma(v[1], barycentric.x, fma(v[2], barycentric.y, v[0] * (Float(1.0f) - barycentric.x - barycentric.y)));
+  }
+};
+
+inline TrianglePoint make_triangle_point(const SceneView& scene, UInt primitive, const Vec3f& p, Mask active) {
   const auto* vertices = reinterpret_cast<const float*>(scene.triangle_vertices);
   const UInt first = primitive * UInt(3u);
-  Vec3f corner_position[3], corner_normal[3];
+  TrianglePoint t;
+  Vec3f corners[3];
   for (int k = 0; k < 3; ++k) {
-    const UInt vertex = gather_uint(vertices + k, first, active) * UInt(3u);
-    corner_position[k] = gather3(scene.positions, vertex, active);
-    corner_normal[k] = gather3(scene.normals, vertex, active);
+    t.vertices[k] = gather_uint(vertices + k, first, active);
+    corners[k] = gather3(scene.positions, t.vertices[k] * UInt(3u), active);
   }
-  const Vec3f e1 = corner_position[1] - corner_position[0], e2 = corner_position[2] - corner_position[0];
-  const Vec3f q = p - corner_position[0];
-  const Float a11 = dot(e1, e1), a12 = dot(e1, e2), a22 = dot(e2, e2), b1 = dot(q, e1), b2 = dot(q, e2);
+  t.e1 = corners[1] - corners[0], t.e2 = corners[2] - corners[0];
+  const Vec3f q = p - corners[0];
+  const Float a11 = dot(t.e1, t.e1), a12 = dot(t.e1, t.e2), a22 = dot(t.e2, t.e2), b1 = dot(q, t.e1), b2 = dot(q, t.e2);
   const Float inv = Float(1.0f) / fms(a11, a22, a12 * a12);
-  const Float u = fms(a22, b1, a12 * b2) * inv, v = fms(a11, b2, a12 * b1) * inv;
-  return normalize(fma(corner_normal[1], u, fma(corner_normal[2], v, corner_normal[0] * (Float(1.0f) - u - v))));
+  t.barycentric = {fms(a22, b1, a12 * b2) * inv, fms(a11, b2, a12 * b1) * inv};
+  return t;
+}
+
+inline Vec3f smooth_normal(const SceneView& scene, const TrianglePoint& t, Mask active) {
+  Vec3f normals[3];
+  for (int k = 0; k < 3; ++k) normals[k] = gather3(scene.normals, t.vertices[k] * UInt(3u), active);
+  return normalize(t.interpolate(normals));
+}
+
+/// Texture coordinates and tangents of triangles; without coordinates of their own they are the barycentric ones, and
+/// the tangents any frame around the normal, as in Mitsuba.
+inline void add_triangle_uv(const SceneView& scene, const TrianglePoint& t, Mask active, SurfacePoint& s) {
+  s.texture.barycentric = select(active, t.barycentric, s.texture.barycentric);
+  Vec2f uv = t.barycentric;
+  const Frame any_frame = make_frame(s.normal);
+  Vec3f dp_du = any_frame.s, dp_dv = any_frame.t;
+  if (scene.texcoords != nullptr) {
+    const auto* shapes = reinterpret_cast<const float*>(scene.shapes);
+    const Mask mapped = active & (gather_uint(shapes + 4, shape_index(s.texture.shape), active) != UInt(0u));
+    Vec2f c[3];
+    for (int k = 0; k < 3; ++k) {
+      const UInt at = t.vertices[k] * UInt(2u);
+      c[k] = {gather(scene.texcoords, at, mapped), gather(scene.texcoords + 1, at, mapped)};
+    }
+    const Vec2f d1{c[1].x - c[0].x, c[1].y - c[0].y}, d2{c[2].x - c[0].x, c[2].y - c[0].y};
+    uv = select(mapped,
+                Vec2f{fma(d1.x, t.barycentric.x, fma(d2.x, t.barycentric.y, c[0].x)),
+                      fma(d1.y, t.barycentric.x, fma(d2.y, t.barycentric.y, c[0].y))},
+                uv);
+    // p = p0 + e1 b1 + e2 b2 and uv = c0 + d1 b1 + d2 b2, solved for the derivatives of p.
+    const Float determinant = fms(d1.x, d2.y, d1.y * d2.x);
+    const Mask regular = mapped & (determinant != Float(0.0f));
+    const Float inv = Float(1.0f) / determinant;
+    dp_du = select(regular, fma(t.e1, d2.y, t.e2 * -d1.y) * inv, dp_du);
+    dp_dv = select(regular, fma(t.e2, d1.x, t.e1 * -d2.x) * inv, dp_dv);
+  }
+  s.texture.uv = select(active, uv, s.texture.uv);
+  s.dp_du = select(active, dp_du, s.dp_du);
+  s.dp_dv = select(active, dp_dv, s.dp_dv);
+}
+
+/// Texture coordinates of spheres: u turns around the local z axis, v goes from the pole at +z to that at -z.
+/// Source: Mitsuba's parameterisation.
+inline void add_sphere_uv(const SceneView& scene, Float radius, Mask active, SurfacePoint& s) {
+  const auto* shapes = reinterpret_cast<const float*>(scene.shapes);
+  const UInt rotation = gather_uint(shapes + 5, shape_index(s.texture.shape), active);
+  const Mask rotated = active & (rotation != UInt(kNone));
+  Vec3f row[3];
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Vec3f unit{Float(k == 0 ? 1.0f : 0.0f), Float(k == 1 ? 1.0f : 0.0f), Float(k == 2 ? 1.0f : 0.0f)};
+    row[k] = any(rotated) ? select(rotated, gather3(scene.parameters + 3 * k, rotation, rotated), unit) : unit;
+  }
+  const Vec3f n = s.normal;
+  const Vec3f local{dot(row[0], n), dot(row[1], n), dot(row[2], n)};
+  const Float turn = atan2(local.y, local.x) * Float(0.5f * kInvPi);
+  const Vec2f uv{select(turn < Float(0.0f), turn + Float(1.0f), turn), acos(local.z) * Float(kInvPi)};
+  // Derivatives of (cos 2 pi u sin pi v, sin 2 pi u sin pi v, cos pi v).
+  const Float sin_theta = sqrt(fma(local.x, local.x, local.y * local.y));
+  const Mask pole = !(sin_theta > Float(0.0f));
+  const Float inv = Float(1.0f) / sin_theta;
+  const Vec2f phi = select(pole, Vec2f{Float(1.0f), Float(0.0f)}, Vec2f{local.x * inv, local.y * inv});
+  const auto to_world = [&](const Vec3f& v) { return fma(row[0], v.x, fma(row[1], v.y, row[2] * v.z)); };
+  const Float two_pi_r = radius * Float(2.0f * kPi), pi_r = radius * Float(kPi);
+  s.texture.uv = select(active, uv, s.texture.uv);
+  s.dp_du = select(active, to_world({-local.y, local.x, Float(0.0f)}) * two_pi_r, s.dp_du);
+  s.dp_dv = select(active, to_world({local.z * phi.x, local.z * phi.y, -sin_theta}) * pi_r, s.dp_dv);
 }
 
 NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hit& hit, Mask active) {
@@ -48,7 +129,7 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
   const Vec3f along = fma(hit.ray.direction, hit.t, hit.ray.origin);
 
   // A triangle's record is its plane: move the point onto it.
-  SurfacePoint s;
+  SurfacePoint s{};
   s.normal = geometry;
   s.position = fma(geometry, fourth - dot(geometry, along), along);
   Float scale = largest(s.position);
@@ -68,20 +149,39 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
   s.offset = scale * Float(kOffsetUlps);
 
   Vec3f shading = s.normal;
-  if (scene.any_smooth) {
-    s.shape = gather_uint(records + 7, index, active);
+  const Mask triangle = active & !sphere;
+  if (scene.any_smooth || scene.needs_uv) {
     const auto* shapes = reinterpret_cast<const float*>(scene.shapes);
-    const UInt smooth = gather_uint(shapes + 2, s.shape * UInt(sizeof(ShapeRecord) / sizeof(float)), active);
-    const Mask interpolate = active & (smooth != UInt(0u));
-    if (any(interpolate)) {
-      shading = select(interpolate, smooth_normal(scene, hit.primitive, s.position, interpolate), shading);
+    s.texture.shape = gather_uint(records + 7, index, active);
+    s.texture.primitive = hit.primitive;
+    const UInt smooth = gather_uint(shapes + 2, shape_index(s.texture.shape), active);
+    const Mask interpolate = triangle & (smooth != UInt(0u));
+    const Mask look = scene.needs_uv ? triangle : interpolate;
+    if (any(look)) {
+      const TrianglePoint t = make_triangle_point(scene, hit.primitive, s.position, look);
+      if (any(interpolate)) shading = select(interpolate, smooth_normal(scene, t, interpolate), shading);
+      if (scene.needs_uv) add_triangle_uv(scene, t, triangle, s);
     }
+    if (scene.needs_uv && any(sphere)) add_sphere_uv(scene, fourth, sphere, s);
   }
   const Mask back = dot(s.normal, hit.ray.direction) > Float(0.0f);
   const Float sign = select(back, Float(-1.0f), Float(1.0f));
+  if (scene.needs_uv) {
+    // Along the first tangent, as anisotropic models and normal maps want it. From the back the frame is mirrored in
+    // the surface, not turned: s and t stay.
+    s.frame = frame_along(shading, s.dp_du);
+    s.frame.n = shading * sign;
+  } else {
+    s.frame = make_frame(shading * sign);
+  }
   s.normal = s.normal * sign;
-  s.frame = make_frame(shading * sign);
   return s;
+}
+
+/// The parameters of the model that a hit's material word names.
+NORRSKEN_INLINE ParameterReader parameter_reader(const SceneView& scene, const Hit& hit, const SurfacePoint& surface,
+                                                 Mask active) {
+  return {scene, hit.material & UInt(kMaterialOffsetMask), surface.texture, active};
 }
 
 /// Where a ray that leaves towards `side` of the surface begins.
