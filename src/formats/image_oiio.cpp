@@ -1,11 +1,15 @@
 #include "formats/image_oiio.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <new>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "color/srgb.h"
@@ -15,6 +19,8 @@ namespace {
 using namespace norrsken;
 
 constexpr int kRowsAtATime = 64;
+
+using Input = std::unique_ptr<OIIO::ImageInput>;
 
 bool is_integer_of(const OIIO::TypeDesc& type, std::size_t bytes) {
   return !type.is_floating_point() && type.size() == bytes;
@@ -37,10 +43,30 @@ float decoded(float value, bool srgb, bool counted) {
 /// A complaint of OpenImageIO, which may also fail without a word.
 std::string said(const std::string& error) { return error.empty() ? "unknown or damaged image file" : error; }
 
+/// Hands the image to `use(first_row, values)` in blocks of rows, all channels one behind the other. Empty, or what is
+/// wrong with the file.
+template <class T, class Use>
+std::string for_each_block(OIIO::ImageInput& input, OIIO::TypeDesc type, const Use& use) {
+  const OIIO::ImageSpec& spec = input.spec();
+  const int rows_at_a_time = spec.tile_height > 0 ? spec.tile_height : kRowsAtATime;
+  const std::size_t row_values = static_cast<std::size_t>(spec.nchannels) * static_cast<std::size_t>(spec.width);
+  std::vector<T> block(row_values * static_cast<std::size_t>(std::min(rows_at_a_time, spec.height)));
+  for (int row = 0; row < spec.height; row += rows_at_a_time) {
+    const int rows = std::min(rows_at_a_time, spec.height - row), begin = spec.y + row;
+    const bool success = spec.tile_height > 0 ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, begin + rows,
+                                                                 0, 1, 0, spec.nchannels, type, block.data())
+                                              : input.read_scanlines(0, 0, begin, begin + rows, 0, 0, spec.nchannels,
+                                                                     type, block.data());
+    if (!success) return said(input.geterror());
+    use(row, std::span<const T>(block.data(), row_values * static_cast<std::size_t>(rows)));
+  }
+  return {};
+}
+
 std::string read(const std::string& path, Image& image) {
   OIIO::ImageSpec request;
   request["oiio:UnassociatedAlpha"] = 1;  // multiplying encoded colours by alpha is wrong
-  const auto input = OIIO::ImageInput::open(path, &request);
+  const Input input = OIIO::ImageInput::open(path, &request);
   if (!input) return said(OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.deep || spec.depth > 1) return "deep and volume images are not read";
@@ -64,38 +90,108 @@ std::string read(const std::string& path, Image& image) {
     if (attribute.type() == OIIO::TypeString) image.metadata[attribute.name().string()] = attribute.get_string();
   }
 
-  const int rows_at_a_time = spec.tile_height > 0 ? spec.tile_height : kRowsAtATime;
   const std::size_t channels = static_cast<std::size_t>(spec.nchannels), width = static_cast<std::size_t>(spec.width);
-  std::vector<float> block(channels * width * static_cast<std::size_t>(std::min(rows_at_a_time, spec.height)));
-  for (int row = 0; row < spec.height; row += rows_at_a_time) {
-    const int rows = std::min(rows_at_a_time, spec.height - row), begin = spec.y + row;
-    const bool success =
-        spec.tile_height > 0
-            ? input->read_tiles(0, 0, spec.x, spec.x + spec.width, begin, begin + rows, 0, 1, 0, spec.nchannels,
-                                OIIO::TypeFloat, block.data())
-            : input->read_scanlines(0, 0, begin, begin + rows, 0, 0, spec.nchannels, OIIO::TypeFloat, block.data());
-    if (!success) return said(input->geterror());
+  return for_each_block<float>(*input, OIIO::TypeFloat, [&](int row, std::span<const float> block) {
     for (std::size_t c = 0; c < channels; ++c) {
       float* out = image.channels[c].values.data() + static_cast<std::size_t>(row) * width;
-      for (std::size_t i = 0; i < width * static_cast<std::size_t>(rows); ++i) {
+      for (std::size_t i = 0; i < block.size() / channels; ++i) {
         out[i] = decoded(block[i * channels + c], srgb[c], counted[c]);
       }
     }
-  }
-  return {};
+  });
 }
 
-}  // namespace
+/// The channels that make a colour or grey: R, G, B by name, or Y, or the first three or the first one.
+std::vector<int> color_channels(const OIIO::ImageSpec& spec) {
+  const int rgb[3] = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+  if (std::ranges::all_of(rgb, [](int c) { return c >= 0; })) return {rgb[0], rgb[1], rgb[2]};
+  if (const int grey = spec.channelindex("Y"); grey >= 0) return {grey};
+  return spec.nchannels >= 3 ? std::vector<int>{0, 1, 2} : std::vector<int>{0};
+}
 
-extern "C" bool norrsken_oiio_read(const std::string& path, norrsken::Image& image, std::string& error) noexcept {
-  bool success = false;
+template <class T>
+std::string read_channels(OIIO::ImageInput& input, const std::vector<int>& wanted, std::vector<T>& values) {
+  const OIIO::ImageSpec& spec = input.spec();
+  const auto channels = static_cast<std::size_t>(spec.nchannels);
+  const bool counted = spec.format == OIIO::TypeDesc::UINT32;
+  // Reserved memory costs nothing before it is written, so a header cannot ask for more than the file fills.
+  values.reserve(spec.image_pixels() * wanted.size());
+  return for_each_block<T>(input, std::is_same_v<T, float> ? OIIO::TypeFloat : OIIO::TypeUInt8,
+                           [&](int, std::span<const T> block) {
+                             for (std::size_t i = 0; i < block.size(); i += channels) {
+                               for (const int c : wanted) {
+                                 const T value = block[i + static_cast<std::size_t>(c)];
+                                 if constexpr (std::is_same_v<T, float>) {
+                                   values.push_back(decoded(value, false, counted));
+                                 } else {
+                                   values.push_back(value);
+                                 }
+                               }
+                             }
+                           });
+}
+
+/// Opens `contents` as the format that the name's extension says, or else as whichever it is.
+Input open_contents(const std::string& path, OIIO::Filesystem::IOProxy& contents, const OIIO::ImageSpec& request) {
+  std::vector<std::string> formats = {"png", "jpeg", "openexr", "hdr", "bmp", "targa", "tiff"};
+  if (const std::size_t dot = path.rfind('.'); dot != std::string::npos)
+    formats.insert(formats.begin(), path.substr(dot + 1));
+  for (const std::string& format : formats) {
+    Input input = OIIO::ImageInput::create(format);
+    OIIO::ImageSpec spec;
+    contents.seek(0);
+    if (input && input->supports("ioproxy") && input->set_ioproxy(&contents) && input->open(path, spec, request))
+      return input;
+  }
+  OIIO::geterror();  // which of them said what is of no use
+  return nullptr;
+}
+
+std::string read_image_texels(const std::string& path, const std::string& contents, std::size_t max_bytes,
+                              TexelImage& image) {
+  OIIO::ImageSpec request;
+  request["oiio:UnassociatedAlpha"] = 1;
+  OIIO::Filesystem::IOMemReader memory(const_cast<char*>(contents.data()), contents.size());
+  const Input input = open_contents(path, memory, request);
+  if (!input) return said({});
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.deep || spec.depth > 1) return "deep and volume images are not read";
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
+  const std::vector<int> wanted = color_channels(spec);
+  const bool small = is_integer_of(spec.format, 1);
+  if (spec.image_pixels() > max_bytes / (wanted.size() * (small ? 1 : sizeof(float)))) {
+    return "it has " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+           " pixels, which this machine's memory cannot hold";
+  }
+  image.width = spec.width;
+  image.height = spec.height;
+  image.channels = static_cast<int>(wanted.size());
+  image.is_encoded = !spec.format.is_floating_point() && spec.format.size() <= 2 &&
+                     !OIIO::Strutil::iequals(spec.get_string_attribute("oiio:ColorSpace"), "linear");
+  return small ? read_channels(*input, wanted, image.bytes) : read_channels(*input, wanted, image.values);
+}
+
+/// Runs `read`, which returns what is wrong, and lets no exception out.
+template <class Read>
+bool guarded(std::string& error, const Read& read) noexcept {
   try {
-    error = read(path, image);
-    success = error.empty();
+    error = read();
+    return error.empty();
   } catch (const std::bad_alloc&) {
     error = "not enough memory";
   } catch (const std::exception& exception) {
     error = exception.what();
   }
-  return success;
+  return false;
+}
+
+}  // namespace
+
+extern "C" bool norrsken_oiio_read(const std::string& path, norrsken::Image& image, std::string& error) noexcept {
+  return guarded(error, [&] { return read(path, image); });
+}
+
+extern "C" bool norrsken_oiio_read_texels(const std::string& path, const std::string& contents, std::size_t max_bytes,
+                                          norrsken::TexelImage& image, std::string& error) noexcept {
+  return guarded(error, [&] { return read_image_texels(path, contents, max_bytes, image); });
 }

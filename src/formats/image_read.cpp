@@ -12,15 +12,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Reader = decltype(&norrsken_oiio_read);
-
 /// Loads the module when the first image is read: OpenImageIO brings some 260 libraries, 130 MB and a quarter of a
 /// second with it, which a program that only renders should not pay. It is looked for beside the program or library
 /// that this code is in, in its installation, and where it was built.
-Reader load_reader(std::string& error) {
+void* load_module(std::string& error) {
   Dl_info here{};
   std::vector<fs::path> folders;
-  if (dladdr(reinterpret_cast<void*>(&load_reader), &here) != 0 && here.dli_fname != nullptr) {
+  if (dladdr(reinterpret_cast<void*>(&load_module), &here) != 0 && here.dli_fname != nullptr) {
     std::error_code code;
     const fs::path program = fs::canonical(here.dli_fname, code);
     if (!code) folders = {program.parent_path(), program.parent_path() / NORRSKEN_MODULE_FOLDER_FROM_BIN};
@@ -31,13 +29,21 @@ Reader load_reader(std::string& error) {
     std::error_code code;
     if (!fs::exists(file, code)) continue;
     // Never closed: the libraries behind it are not made for that.
-    if (void* module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL)) {
-      if (void* entry = dlsym(module, "norrsken_oiio_read")) return reinterpret_cast<Reader>(entry);
-    }
+    if (void* module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL)) return module;
     if (const char* text = dlerror()) error = text;
   }
   if (error.empty()) error = std::string("the module ") + NORRSKEN_OIIO_MODULE + " is not installed";
   return nullptr;
+}
+
+/// An entry of the module, or nullptr with `error` set.
+template <class Entry>
+Entry* find_entry(const char* name, std::string& error) {
+  static std::string load_error;
+  static void* const module = load_module(load_error);
+  void* entry = module ? dlsym(module, name) : nullptr;
+  if (entry == nullptr) error = module ? std::string(NORRSKEN_OIIO_MODULE) + " is of another version" : load_error;
+  return reinterpret_cast<Entry*>(entry);
 }
 
 IoStatus failure(const std::string& path, const std::string& reason) {
@@ -54,14 +60,21 @@ IoStatus read_image(const std::string& path, Image& image) {
   if (fs::is_directory(status)) return failure(path, "it is a folder");
   if (!fs::is_regular_file(status)) return failure(path, "it is not a regular file");
 
-  static std::string load_error;
-  static const Reader reader = load_reader(load_error);
-  if (reader == nullptr) return failure(path, load_error);
   Image read;
   std::string error;
-  if (!reader(path, read, error)) return failure(path, error);
+  auto* reader = find_entry<decltype(norrsken_oiio_read)>("norrsken_oiio_read", error);
+  if (reader == nullptr || !reader(path, read, error)) return failure(path, error);
   image = std::move(read);
   return {};
+}
+
+std::string read_texels(const std::string& path, const std::string& contents, std::size_t max_bytes,
+                        TexelImage& image) {
+  std::string error;
+  auto* reader = find_entry<decltype(norrsken_oiio_read_texels)>("norrsken_oiio_read_texels", error);
+  TexelImage read;
+  if (reader != nullptr && reader(path, contents, max_bytes, read, error)) image = std::move(read);
+  return error;
 }
 
 }  // namespace norrsken

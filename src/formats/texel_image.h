@@ -1,0 +1,26 @@
+// Images as textures want them: as compact as the file has them, colour or grey.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace norrsken {
+
+/// Row 0 is the top. Alpha is left out, and grey is told from colour.
+struct TexelImage {
+  int width = 0, height = 0;
+  int channels = 0;  ///< 1 or 3
+  /// Integers of the file: stored with sRGB's transfer function, unless it says that they are linear.
+  bool is_encoded = false;
+  /// width * height * channels: 8-bit integers, or if the file has others `values`, in which integers are in [0, 1].
+  std::vector<std::uint8_t> bytes;
+  std::vector<float> values;
+};
+
+/// Reads an image out of a file's `contents`; `path` is for its extension. Empty, or what is wrong. Images of more than
+/// `max_bytes` are refused, and those whose header promises more than the file holds are given up when it ends.
+std::string read_texels(const std::string& path, const std::string& contents, std::size_t max_bytes, TexelImage& image);
+
+}  // namespace norrsken

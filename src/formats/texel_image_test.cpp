@@ -1,0 +1,116 @@
+#include "formats/texel_image.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "norrsken/image.h"
+
+namespace norrsken {
+namespace {
+
+constexpr std::size_t kPlenty = std::size_t{1} << 30;
+
+/// The bytes of a file that `write` makes.
+template <class Write>
+std::string bytes_of(const std::string& name, const Write& write) {
+  std::string pattern = testing::TempDir() + "/norrsken-XXXXXX";
+  const std::filesystem::path folder = mkdtemp(pattern.data());
+  write((folder / name).string());
+  std::ostringstream bytes;
+  bytes << std::ifstream(folder / name, std::ios::binary).rdbuf();
+  std::filesystem::remove_all(folder);
+  return bytes.str();
+}
+
+std::string little_endian(std::initializer_list<std::pair<std::uint32_t, int>> numbers) {
+  std::string bytes;
+  for (auto [value, size] : numbers) {
+    for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
+  }
+  return bytes;
+}
+
+/// 2 x 2, bottom row first: blue, green, red; rows are padded to four bytes.
+std::string bmp() {
+  return "BM" + little_endian({{70, 4}, {0, 4}, {54, 4}, {40, 4}, {2, 4}, {2, 4}, {1, 2}, {24, 2}, {0, 4}, {16, 4}}) +
+         little_endian({{2835, 4}, {2835, 4}, {0, 4}, {0, 4}}) +
+         std::string("\x07\x08\x09\x0a\x0b\x0c\0\0\x01\x02\x03\x04\x05\x06\0\0", 16);
+}
+
+/// 2 x 1, top row first, uncompressed, of 24 bits.
+std::string tga(std::uint32_t width = 2, std::uint32_t height = 1) {
+  return little_endian({{0, 1}, {0, 1}, {2, 1}, {0, 5}, {0, 4}, {width, 2}, {height, 2}, {24, 1}, {0x20, 1}}) +
+         std::string("\x03\x02\x01\x06\x05\x04", 6);
+}
+
+TEST(TexelImage, BitmapFilesKeepTheirBytes) {
+  TexelImage image;
+  ASSERT_EQ(read_texels("a.bmp", bmp(), kPlenty, image), "");
+  EXPECT_EQ(image.width, 2);
+  EXPECT_EQ(image.height, 2);
+  EXPECT_EQ(image.channels, 3);
+  EXPECT_TRUE(image.is_encoded);
+  EXPECT_EQ(image.bytes, (std::vector<std::uint8_t>{3, 2, 1, 6, 5, 4, 9, 8, 7, 12, 11, 10}));
+  EXPECT_TRUE(image.values.empty());
+}
+
+TEST(TexelImage, TargaFilesKeepTheirBytes) {
+  TexelImage image;
+  ASSERT_EQ(read_texels("a.tga", tga(), kPlenty, image), "");
+  EXPECT_EQ(image.bytes, (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6}));
+  EXPECT_TRUE(image.is_encoded);
+}
+
+TEST(TexelImage, RadianceFilesAreLinear) {
+  // 1 x 2 in "-Y 2 +X 1": mantissas and a shared exponent of 128 + 1.
+  const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 1\n";
+  TexelImage image;
+  ASSERT_EQ(read_texels("a.hdr", header + std::string("\x80\x40\x20\x81\x20\x40\x80\x81", 8), kPlenty, image), "");
+  EXPECT_FALSE(image.is_encoded);
+  ASSERT_EQ(image.values.size(), 6u);
+  EXPECT_NEAR(image.values[0], 1, 0.01);
+  EXPECT_NEAR(image.values[1], 0.5, 0.01);
+  EXPECT_NEAR(image.values[5], 1, 0.01);
+}
+
+TEST(TexelImage, WhatTheProgramWritesItReads) {
+  Image written;
+  written.width = 2;
+  written.height = 1;
+  written.channel("R").values = {0, 0.25f};
+  written.channel("G").values = {1, 4};
+  written.channel("B").values = {0.5f, -1};
+  written.channel("depth.Z").values = {7, 8};
+  const auto write = [&](const std::string& path) { ASSERT_TRUE(write_image(path, written)); };
+
+  TexelImage exr, png, jpeg;
+  ASSERT_EQ(read_texels("a.exr", bytes_of("a.exr", write), kPlenty, exr), "");
+  EXPECT_FALSE(exr.is_encoded);
+  EXPECT_EQ(exr.channels, 3);
+  EXPECT_EQ(exr.values, (std::vector<float>{0, 1, 0.5f, 0.25f, 4, -1}));
+
+  ASSERT_EQ(read_texels("a.png", bytes_of("a.png", write), kPlenty, png), "");
+  EXPECT_TRUE(png.is_encoded);
+  EXPECT_EQ(png.bytes, (std::vector<std::uint8_t>{0, 255, 188, 137, 255, 0}));
+
+  ASSERT_EQ(read_texels("a.jpg", bytes_of("a.jpg", write), kPlenty, jpeg), "");
+  EXPECT_TRUE(jpeg.is_encoded);
+  EXPECT_EQ(jpeg.bytes.size(), 6u);
+}
+
+TEST(TexelImage, BadFilesAreRefused) {
+  TexelImage image;
+  EXPECT_NE(read_texels("a.png", "no image", kPlenty, image), "");
+  EXPECT_NE(read_texels("a.exr", "", kPlenty, image), "");
+  EXPECT_NE(read_texels("a", "x", kPlenty, image), "");
+  EXPECT_EQ(read_texels("a.bmp", bmp(), 11, image), "it has 2x2 pixels, which this machine's memory cannot hold");
+  EXPECT_EQ(image.width, 0) << "changed on success only";
+  // A header that promises what the file does not hold.
+  EXPECT_NE(read_texels("a.tga", tga(60000, 60000), kPlenty * 100, image), "");
+}
+
+}  // namespace
+}  // namespace norrsken
