@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""Writes docs/scenes.md, the reference of everything that a scene file may name, from the sources' own header blocks.
+
+    scripts/make_scene_docs.py                    write docs/scenes.md
+    scripts/make_scene_docs.py --check            say whether docs/scenes.md is what would be written (exit status 1 if not)
+    scripts/make_scene_docs.py --render PROGRAM   render the pictures too, with PROGRAM (build/release/norrsken)
+
+Plugins are those of the families' lists (src/FAMILY/*.def). Of each, the host file's block says what its parameters are,
+the kernel header's block what its model and source are. Pictures are docs/plugin_scenes/FAMILY/NAME.xml, rendered to
+docs/images/plugins/FAMILY_NAME.jpg; a plugin without such a scene has none.
+"""
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs/scenes.md"
+PICTURES = ROOT / "docs/images/plugins"
+SCENES = ROOT / "docs/plugin_scenes"
+
+# Heading, folder, element of the scene file, lists that name its plugins, header with the parameters of the whole family.
+FAMILIES = [
+    ("Integrators", "integrator", "integrator", ["plugins.def"], "integrator_host.h"),
+    ("Sensors", "camera", "sensor", ["plugins.def"], None),
+    ("Films", "film", "film", ["plugins.def"], None),
+    ("Reconstruction filters", "rfilter", "rfilter", ["plugins.def"], None),
+    ("Samplers", "sampler", "sampler", ["plugins.def"], "sampler_host.h"),
+    ("BSDFs", "bsdf", "bsdf", ["list.def", "resolved.def", "adapters.def"], None),
+    ("Textures", "texture", "texture", ["plugins.def", "list.def"], None),
+    ("Emitters", "light", "emitter", ["plugins.def"], None),
+    ("Shapes", "shape", "shape", ["plugins.def"], "mesh_host.h"),
+]
+
+
+def header_block(path):
+    """The lines of the comment that a file begins with, without their slashes."""
+    lines = []
+    if path.exists():
+        for line in path.read_text().splitlines():
+            if not line.startswith("//"):
+                break
+            lines.append(line[2:].removeprefix(" ").rstrip())
+    return lines
+
+
+def plugin_names(folder, lists):
+    names = []
+    for name in lists:
+        path = ROOT / "src" / folder / name
+        if path.exists():
+            names += re.findall(r"^NORRSKEN_\w+\((\w+)", path.read_text(), re.MULTILINE)
+    return sorted(set(names))
+
+
+def fields(block):
+    """Of a kernel header: 'Model', 'Source', ... and their texts."""
+    result, current = {}, None
+    for line in block:
+        match = re.match(r"([A-Z][a-z]+) {2,}(\S.*)", line)
+        if match:
+            current = match[1]
+            result[current] = match[2]
+        elif current and line.startswith("   "):
+            result[current] += " " + line.strip()
+        else:
+            current = None
+    return result
+
+
+def cell(text):
+    return text.replace("|", "\\|").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def sentences(lines):
+    return cell(" ".join(lines).replace("  ", " ").strip())
+
+
+def render_block(block):
+    """Prose and tables of a host file's block, without its first line."""
+    out, table, prose = [], [], []
+
+    def flush():
+        if table:
+            out.extend(["", "| parameter | |", "|---|---|"])
+            out.extend(f"| {cell(name)} | {cell(text)} |" for name, text in table)
+            table.clear()
+        if prose:
+            out.extend(["", sentences(prose)])
+            prose.clear()
+
+    for line in block:
+        entry = re.match(r"  (\S.*?)(?: {2,}|$)(.*)", line)
+        if line.startswith("   ") and table:
+            table[-1][1] = (table[-1][1] + " " + line.strip()).strip()
+        elif entry:
+            if prose:
+                flush()
+            names = ", ".join(f"`{n.strip()}`" for n in entry[1].split(","))
+            table.append([names, entry[2]])
+        elif not line or line in ("Parameters", "Children") or line.startswith("Parameters of "):
+            flush()
+        else:
+            if table:
+                flush()
+            # What the host stores is between it and the kernel.
+            if re.match(r"(Departures|Sources?|Side|Children|Stored)\b", line):
+                flush()
+            prose.append(line)
+    flush()
+    text = "\n".join(out)
+    text = re.sub(r"\n\nStored:[^\n]*", "", text)
+    return re.sub(r"\((\w+)/\w+_host\.h\)", "(see the top of this section)", text)
+
+
+def plugin_section(folder, element, name):
+    host = header_block(ROOT / f"src/{folder}/{name}.cpp")
+    kernel = fields(header_block(ROOT / f"src/{folder}/{name}.h"))
+    if not host:
+        sys.exit(f"src/{folder}/{name}.cpp has no header block")
+    title = re.sub(rf"^{name}: ?", "", host[0])
+    body = host[1:]
+    while body and body[0] and not body[0].startswith("Parameters"):
+        title += " " + body.pop(0)
+    if title.rstrip(".") == "host side":
+        title = kernel.get("Model", "")
+    out = [f"### {name}", "", cell(title[:1].upper() + title[1:])]
+    picture = PICTURES / f"{folder}_{name}.jpg"
+    if picture.exists():
+        out += ["", f"![{element} {name}](images/plugins/{picture.name})"]
+    text = render_block(body)
+    if text.strip():
+        out.append(text)
+    for key in ("Source", "Departures"):
+        if key not in text and kernel.get(key, "none").rstrip(".") not in ("none", "none needed", "-", "the usual"):
+            out += ["", f"{key}: {cell(kernel[key])}"]
+    return "\n".join(out)
+
+
+def page():
+    out = ["# Scene files: every plugin and its parameters", "",
+           "Norrsken reads the XML format of Mitsuba 3. This page is written by `scripts/make_scene_docs.py` from the header "
+           "blocks of the sources; change it there. Lengths are in scene units, angles in degrees, colours linear sRGB; "
+           "\"color\" stands for `rgb`, `spectrum` or a grey `float`. A parameter that nobody asks for is an error."]
+    families = [(heading, folder, element, plugin_names(folder, lists), common)
+                for heading, folder, element, lists, common in FAMILIES]
+    out += [""] + [f"- **{heading}**: " + ", ".join(f"[{n}](#{n})" for n in names)
+                   for heading, _, _, names, _ in families if names]
+    for heading, folder, element, names, common in families:
+        if not names:
+            continue
+        out += ["", f"## {heading}"]
+        if common:
+            block = header_block(ROOT / f"src/{folder}/{common}")
+            out += ["", cell(block[0]), render_block(block[1:]).strip("\n") and render_block(block[1:])]
+        for name in names:
+            out += ["", plugin_section(folder, element, name)]
+    return re.sub(r"\n{3,}", "\n\n", "\n".join(out)) + "\n"
+
+
+def render(program):
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    for scene in sorted(SCENES.glob("*/*.xml")):
+        image = PICTURES / f"{scene.parent.name}_{scene.stem}.jpg"
+        subprocess.run([program, "render", str(scene), "-o", str(image), "--quiet"], check=True)
+        print(image.relative_to(ROOT))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="only say whether docs/scenes.md is up to date")
+    parser.add_argument("--render", metavar="PROGRAM", help="render the pictures with this program")
+    arguments = parser.parse_args()
+    if arguments.render:
+        render(arguments.render)
+    text = page()
+    if arguments.check:
+        if not PAGE.exists() or PAGE.read_text() != text:
+            sys.exit("docs/scenes.md is not what the sources say: run scripts/make_scene_docs.py")
+        print("docs/scenes.md: up to date")
+        return
+    PAGE.write_text(text)
+
+
+if __name__ == "__main__":
+    main()
