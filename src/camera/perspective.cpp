@@ -15,105 +15,27 @@
 // Measure: every film point has the same weight.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "base/numbers.h"
-#include "base/text.h"
+#include "camera/camera_host.h"
+#include "compile/field_of_view.h"
 #include "compile/plugins.h"
 
 namespace norrsken {
-namespace {
-
-/// 36 x 24 mm.
-const double kFilmDiagonal = std::hypot(36.0, 24.0);
-
-/// Angle in radians along the film's diagonal.
-double focal_length_angle(Parameters& p) {
-  const std::string text = p.text("focal_length", "50mm");
-  constexpr std::string_view kUnit = "mm";
-  double millimetres = 0;
-  const bool parsed = text.ends_with(kUnit) && parse_number(trim(std::string_view(text).substr(0, text.size() - 2)),
-                                                            millimetres) == NumberStatus::ok;
-  if (!parsed || millimetres < 1e-3 || millimetres > 1e6) {
-    p.error("focal_length", fmt::format("'focal_length' is {}", quoted(text)),
-            "a length from 0.001mm to 1000000mm, such as 50mm");
-    millimetres = 50;
-  }
-  return 2 * std::atan(kFilmDiagonal / (2 * millimetres));
-}
-
-/// Half the image's width at distance 1.
-double half_width(Parameters& p, double aspect) {
-  std::string axis = p.choice("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"});
-  const double degrees = p.number("fov", 45, 0, 180, Ends::open);
-  double angle = focal_length_angle(p);
-  if (!p.has("fov")) {
-    axis = "diagonal";
-  } else {
-    angle = glm::radians(degrees);
-    if (p.has("focal_length")) {
-      p.error("focal_length", "sensor 'perspective' has both 'fov' and 'focal_length'", "one of them");
-    }
-  }
-  const double half = std::tan(angle / 2);
-  if (axis == "smaller") axis = aspect > 1 ? "y" : "x";
-  if (axis == "larger") axis = aspect > 1 ? "x" : "y";
-  if (axis == "y") return half * aspect;
-  if (axis == "diagonal") return half / std::sqrt(1 + 1 / (aspect * aspect));
-  return half;
-}
-
-bool keeps_lengths(const glm::dmat3& linear) {
-  const glm::dmat3 gram = glm::transpose(linear) * linear;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      if (std::abs(gram[i][j] - (i == j)) > 1e-3) return false;
-    }
-  }
-  return true;
-}
-
-void store(float (&out)[3], const glm::dvec3& v) {
-  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
-}
-
-}  // namespace
 
 CameraRecord compile_sensor_perspective(Parameters& p, Builder& builder, const FilmSettings& film) {
-  const double width = film.width, height = film.height;
-  const double half_x = half_width(p, width / height);
-  const double half_y = half_x * height / width;
-  const double near_clip = p.number("near_clip", 1e-2, 0, kMaxCoordinate, Ends::open_below);
-  const double far_clip = p.number("far_clip", 1e4, 0, kMaxCoordinate, Ends::open_below);
-  if (near_clip >= far_clip) {
-    p.error(p.has("near_clip") ? "near_clip" : "far_clip",
-            fmt::format("'near_clip' is {}, but 'far_clip' is {}", near_clip, far_clip),
-            "a near_clip smaller than the far_clip");
-  }
+  CameraRecord camera{};
+  camera.kind = CameraKind::perspective;
+  const double half_width = half_width_of_view(p, static_cast<double>(film.full_width) / film.full_height);
+  read_clip_planes(p, camera);
   const double offset_x = p.number("principal_point_offset_x", 0, -1e6, 1e6);
   const double offset_y = p.number("principal_point_offset_y", 0, -1e6, 1e6);
-  const glm::dmat4 to_world = p.transform("to_world");
-  const glm::dmat3 linear(to_world);
-  if (!keeps_lengths(linear)) {
-    p.error("to_world", "'to_world' of a sensor scales", "translations, rotations and lookat");
-  }
-  const glm::dvec3 left = linear[0], up = linear[1], forward = glm::normalize(linear[2]);
-
-  // Film position (px, py) looks along forward + x left + y up, with x from half_x at px = 0 to -half_x at px = width
-  // and y from half_y at py = 0 to -half_y at py = height.
-  CameraRecord camera{};
-  store(camera.origin, to_world[3]);
-  store(camera.base, forward + (1 - 2 * offset_x) * half_x * left + (1 - 2 * offset_y) * half_y * up);
-  store(camera.du, -2 * half_x / width * left);
-  store(camera.dv, -2 * half_y / height * up);
-  store(camera.forward, forward);
-  camera.near_clip = static_cast<float>(near_clip);
-  camera.far_clip = static_cast<float>(far_clip);
-  builder.describe(p.node(), fmt::format("{:.4g} degrees wide", glm::degrees(2 * std::atan(half_x))));
+  const CameraFrame frame = read_rigid_frame(p);
+  store(camera.origin, frame.origin);
+  store(camera.forward, frame.forward);
+  span_film(camera, frame, film, frame.forward, half_width, offset_x, offset_y);
+  builder.describe(p.node(), fmt::format("{:.4g} degrees wide", glm::degrees(2 * std::atan(half_width))));
   return camera;
 }
 

@@ -118,20 +118,19 @@ std::span<SurfaceRecord> Builder::surfaces_of(std::uint32_t shape) {
   return std::span(surfaces).subspan(record.first_primitive, record.primitive_count);
 }
 
-FilterKind Builder::rfilter(Parameters& film) {
+FilterRecord Builder::rfilter(Parameters& film) {
+  Node default_filter;
+  default_filter.kind = "rfilter";
+  default_filter.plugin = "gaussian";
+  default_filter.location = film.node().location;
   const Node::Child* child = film.child("rfilter");
-  if (!child) {
-    diagnostics_.warning(film.node().location,
-                         "no rfilter given: 'box' is used, because Mitsuba's default, 'gaussian', is not supported yet",
-                         "<rfilter type=\"box\"/>");
-    return FilterKind::box;
-  }
-  FilterKind filter = FilterKind::box;
-  if (const auto* plugin = find_plugin(rfilter_plugins(), *child->node, diagnostics_)) {
-    Parameters p = parameters(*child->node);
-    filter = plugin->compile(p);
+  const Node& node = child ? *child->node : default_filter;
+  FilterRecord filter;
+  if (const auto* plugin = find_plugin(rfilter_plugins(), node, diagnostics_)) {
+    Parameters p = parameters(node);
+    filter = plugin->compile(p, *this);
     p.finish();
-    describe(*child->node, {});
+    describe(node, {});
   }
   return filter;
 }
@@ -179,15 +178,19 @@ FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options) {
   settings = plugin->compile(p, *this);
   p.finish();
 
-  const auto override_side = [&](const char* name, const std::optional<int>& value, int& side) {
+  // Another size shows the same picture, and a crop window the same part of it.
+  const auto override_side = [&](const char* name, const std::optional<int>& value, int& full, int& offset, int& size) {
     if (!value) return;
-    side = std::clamp(*value, 1, kMaxFilmSide);
+    const int side = std::clamp(*value, 1, kMaxFilmSide);
     if (side != *value) {
       diagnostics_.error({}, fmt::format("{} {} is out of range", name, *value), fmt::format("1 to {}", kMaxFilmSide));
     }
+    const auto scaled = [&](int x) { return static_cast<int>(std::lround(static_cast<double>(x) * side / full)); };
+    const int begin = std::min(scaled(offset), side - 1), end = std::max(scaled(offset + size), begin + 1);
+    full = side, offset = begin, size = end - begin;
   };
-  override_side("width", options.width, settings.width);
-  override_side("height", options.height, settings.height);
+  override_side("width", options.width, settings.full_width, settings.crop_x, settings.width);
+  override_side("height", options.height, settings.full_height, settings.crop_y, settings.height);
   const auto pixels = static_cast<std::uint64_t>(std::int64_t{settings.width} * settings.height);
   const SourceLocation place = options.width || options.height ? SourceLocation{} : node.location;
   if (pixels > kMaxFilmPixels) {
@@ -197,7 +200,12 @@ FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options) {
     diagnostics_.error(place, film_memory_message(settings.width, settings.height, memory),
                        fmt::format("up to {} pixels", memory / kFilmBytes));
   }
-  describe(node, fmt::format("{} x {}", settings.width, settings.height));
+  std::string detail = fmt::format("{} x {}", settings.width, settings.height);
+  if (settings.width != settings.full_width || settings.height != settings.full_height) {
+    detail += fmt::format(" at ({}, {}) of {} x {}", settings.crop_x, settings.crop_y, settings.full_width,
+                          settings.full_height);
+  }
+  describe(node, std::move(detail));
   return settings;
 }
 

@@ -121,8 +121,8 @@ class Builder {
   /// The records of a shape's primitives, until the next shape is added.
   std::span<SurfaceRecord> surfaces_of(std::uint32_t shape);
   bool is_sphere(std::uint32_t shape) const { return is_sphere_[shape]; }
-  /// The filter of a film node, with a warning if it names none.
-  FilterKind rfilter(Parameters& film);
+  /// The filter of a film node; Mitsuba's, gaussian, if it names none.
+  FilterRecord rfilter(Parameters& film);
   /// A line for `norrsken info`.
   void describe(const Node& node, std::string detail);
 

@@ -299,10 +299,6 @@ TEST(Messages, SeveralInOneRun) {
     4 |       <integer name="width" value="10000000"/>
       |                                    ^~~~~~~~
 accepted: an integer from 1 to 65536
-scene.xml:3:5: warning: no rfilter given: 'box' is used, because Mitsuba's default, 'gaussian', is not supported yet
-    3 |     <film type="hdrfilm">
-      |     ^~~~~
-accepted: <rfilter type="box"/>
 scene.xml:7:43: error: 'sample_count' is 0
     7 |       <integer name="sample_count" value="0"/>
       |                                           ^

@@ -34,9 +34,9 @@ std::span<const Plugin<CompileEmitter>> emitter_plugins() {
 
 std::span<const Plugin<CompileSensor>> sensor_plugins() {
   static constexpr Plugin<CompileSensor> kTable[] = {
-#define NORRSKEN_SENSOR(name) {#name, compile_sensor_##name},
-#include "camera/plugins.def"
-#undef NORRSKEN_SENSOR
+#define NORRSKEN_CAMERA(kind, Model) {#kind, compile_sensor_##kind},
+#include "camera/list.def"
+#undef NORRSKEN_CAMERA
   };
   return kTable;
 }

@@ -20,7 +20,7 @@ using CompileEmitter = void(Parameters&, Builder&, std::uint32_t shape);
 using CompileSensor = CameraRecord(Parameters&, Builder&, const FilmSettings&);
 using CompileFilm = FilmSettings(Parameters&, Builder&);
 using CompileSampler = SamplerSettings(Parameters&);
-using CompileRfilter = FilterKind(Parameters&);
+using CompileRfilter = FilterRecord(Parameters&, Builder&);
 using CompileIntegrator = IntegratorSettings(Parameters&);
 
 #define NORRSKEN_BSDF(kind, Model) CompileBsdf compile_bsdf_##kind;
@@ -35,9 +35,9 @@ using CompileIntegrator = IntegratorSettings(Parameters&);
 #define NORRSKEN_EMITTER(name) CompileEmitter compile_emitter_##name;
 #include "light/plugins.def"
 #undef NORRSKEN_EMITTER
-#define NORRSKEN_SENSOR(name) CompileSensor compile_sensor_##name;
-#include "camera/plugins.def"
-#undef NORRSKEN_SENSOR
+#define NORRSKEN_CAMERA(kind, Model) CompileSensor compile_sensor_##kind;
+#include "camera/list.def"
+#undef NORRSKEN_CAMERA
 #define NORRSKEN_FILM(name) CompileFilm compile_film_##name;
 #include "film/plugins.def"
 #undef NORRSKEN_FILM

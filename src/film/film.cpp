@@ -36,6 +36,7 @@ double FilmError::relative() const {
 Film::Film(const FilmSettings& settings, SamplerKind sampler, bool features)
     : width_(static_cast<std::uint32_t>(settings.width)),
       height_(static_cast<std::uint32_t>(settings.height)),
+      weighted_(settings.filter.kind != FilterKind::box),
       sampler_(sampler) {
   const std::size_t pixels = static_cast<std::size_t>(width_) * height_;
   sums_.resize(pixels * plane_count(sampler));
@@ -44,7 +45,7 @@ Film::Film(const FilmSettings& settings, SamplerKind sampler, bool features)
 }
 
 FilmView Film::view() {
-  return {sums_.data(), counts_.data(), features_.empty() ? nullptr : features_.data(), width_, height_};
+  return {sums_.data(), counts_.data(), features_.empty() ? nullptr : features_.data(), width_, height_, weighted_};
 }
 
 PixelEstimate Film::estimate(std::uint64_t pixel, int channel) const {

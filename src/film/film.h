@@ -49,6 +49,7 @@ class Film {
 
  private:
   std::uint32_t width_, height_;
+  bool weighted_;
   SamplerKind sampler_;
   // Tiles are a multiple of a cache line wide: aligned, two threads on neighbouring tiles never write to one line.
   AlignedVector<double> sums_;

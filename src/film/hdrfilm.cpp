@@ -1,15 +1,26 @@
-// hdrfilm: the image's size and what becomes of its values.
+// hdrfilm: the image's size, what of it is rendered, and what becomes of its values.
 //
 // Parameters
-//   width, height     integers, pixels, 1 to 65536 (default 768 x 576), 2^28 pixels in all, and no more
-//                     than this machine has memory for, 100 bytes each
+//   width, height     integers, pixels, 1 to 65536 (default 768 x 576)
+//   crop_offset_x, crop_offset_y, crop_width, crop_height
+//                     integers, pixels (default: all of the film): the rectangle of the film that is rendered; it has at
+//                     most 2^28 pixels and no more than this machine has memory for, 100 bytes each
+//   sample_border     boolean (default false): filters of pixels at the border of that rectangle reach beyond it, as
+//                     those within do; otherwise they are cut off there
+//   high_quality_edges  an older name of sample_border
 //   file_format       openexr (default)
-//   pixel_format      rgb (default)
-//   component_format  float32 (default)
+//   pixel_format      luminance, luminance_alpha, rgb (default), rgba, xyz or xyza: the channels of EXR files. Alpha is
+//                     the share of a pixel in which something is seen.
+//   component_format  float32 (default) or float16: how EXR files hold those channels; other layers are float32
+//   banner            boolean: nothing is drawn over images, so it changes nothing
 // Children: rfilter.
-// Departures: Mitsuba's default component_format is float16; we always write float32. Its other formats are refused,
-// except that float16 and rgba are taken with a warning, because so many scenes ask for them.
+// Departures: Mitsuba's default component_format is float16, ours loses nothing; its uint32, which holds no radiance,
+// and its other file formats are refused. The extension of the output file's name decides how it is written.
 #include <fmt/format.h>
+
+#include <span>
+#include <tuple>
+#include <utility>
 
 #include "base/text.h"
 #include "compile/plugins.h"
@@ -17,27 +28,56 @@
 namespace norrsken {
 namespace {
 
-/// Reads a format of which only `written` is written; `tolerated` gets a warning, the rest an error.
-void read_format(Parameters& p, const char* name, std::string_view written, std::string_view tolerated) {
-  const std::string value = p.text(name, written);
-  if (value == written) return;
-  std::string message = fmt::format("{} {} is not supported yet", name, quoted(value));
-  if (value == tolerated) {
-    p.diagnostics().warning(p.where(name), fmt::format("{}: {} is written", message, written), std::string(written));
-  } else {
-    p.error(name, std::move(message), std::string(written));
+/// One of a list that begins with the default.
+template <class Format>
+Format read_format(Parameters& p, const char* name, std::span<const std::pair<const char*, Format>> known) {
+  const std::string value = p.text(name, known.front().first);
+  std::string accepted;
+  for (const auto& [word, format] : known) {
+    if (equal_ignoring_case(value, word)) return format;
+    accepted += (accepted.empty() ? "" : ", ") + std::string(word);
   }
+  p.error(name, fmt::format("{} {} is not supported", name, quoted(value)), accepted);
+  return known.front().second;
+}
+
+constexpr std::pair<const char*, PixelFormat> kPixelFormats[] = {{"rgb", PixelFormat::rgb},
+                                                                 {"rgba", PixelFormat::rgba},
+                                                                 {"xyz", PixelFormat::xyz},
+                                                                 {"xyza", PixelFormat::xyza},
+                                                                 {"luminance", PixelFormat::luminance},
+                                                                 {"luminance_alpha", PixelFormat::luminance_alpha}};
+constexpr std::pair<const char*, bool> kComponentFormats[] = {{"float32", false}, {"float16", true}};
+constexpr std::pair<const char*, int> kFileFormats[] = {{"openexr", 0}, {"exr", 0}};
+
+/// The rendered part of one side of the film: its offset and its length.
+std::pair<int, int> read_crop(Parameters& p, const char* offset_name, const char* size_name, int full) {
+  const auto offset = static_cast<int>(p.integer(offset_name, 0, 0, full - 1));
+  return {offset, static_cast<int>(p.integer(size_name, full - offset, 1, full - offset))};
+}
+
+bool read_sample_border(Parameters& p) {
+  const bool sample_border = p.boolean("sample_border", false);
+  const bool high_quality_edges = p.boolean("high_quality_edges", sample_border);
+  if (p.has("sample_border") && high_quality_edges != sample_border) {
+    p.error("high_quality_edges", "'high_quality_edges' says the contrary of 'sample_border'", "one of them");
+  }
+  return high_quality_edges;
 }
 
 }  // namespace
 
 FilmSettings compile_film_hdrfilm(Parameters& p, Builder& builder) {
   FilmSettings film;
-  film.width = static_cast<int>(p.integer("width", 768, 1, kMaxFilmSide));
-  film.height = static_cast<int>(p.integer("height", 576, 1, kMaxFilmSide));
-  read_format(p, "file_format", "openexr", "");
-  read_format(p, "pixel_format", "rgb", "rgba");
-  read_format(p, "component_format", "float32", "float16");
+  film.full_width = static_cast<int>(p.integer("width", 768, 1, kMaxFilmSide));
+  film.full_height = static_cast<int>(p.integer("height", 576, 1, kMaxFilmSide));
+  std::tie(film.crop_x, film.width) = read_crop(p, "crop_offset_x", "crop_width", film.full_width);
+  std::tie(film.crop_y, film.height) = read_crop(p, "crop_offset_y", "crop_height", film.full_height);
+  film.sample_border = read_sample_border(p);
+  read_format<int>(p, "file_format", kFileFormats);
+  film.pixel_format = read_format<PixelFormat>(p, "pixel_format", kPixelFormats);
+  film.half_precision = read_format<bool>(p, "component_format", kComponentFormats);
+  p.boolean("banner", false);
   film.filter = builder.rfilter(p);
   return film;
 }

@@ -57,36 +57,97 @@ TEST(Hdrfilm, RefusesSizesThatThisMachineDoesNotHold) {
             "a film of 65536 x 4096 pixels needs 25.0 GiB, this machine has 1.5 GiB");
 }
 
-TEST(Hdrfilm, WarnsThatBoxStandsInForAMissingFilter) {
-  const Compiled c = compile_film("");
-  EXPECT_TRUE(c.scene);
-  EXPECT_THAT(c.messages(), ElementsAre("warning: no rfilter given: 'box' is used, because Mitsuba's default, "
-                                        "'gaussian', is not supported yet [<rfilter type=\"box\"/>]"));
+std::string integer(const std::string& name, int value) {
+  return "<integer name=\"" + name + "\" value=\"" + std::to_string(value) + "\"/>";
+}
+std::string text(const std::string& name, const std::string& value) {
+  return "<string name=\"" + name + "\" value=\"" + value + "\"/>";
+}
+std::string boolean(const std::string& name, bool value) {
+  return "<boolean name=\"" + name + "\" value=\"" + (value ? "true" : "false") + "\"/>";
 }
 
-TEST(Hdrfilm, TakesTheBoxFilterOnly) {
-  EXPECT_THAT(compile_film(R"(<rfilter type="gaussian"/>)").messages(),
-              ElementsAre("error: rfilter 'gaussian' is not supported yet [box]"));
+TEST(Hdrfilm, RendersACropWindow) {
+  const std::string crop = integer("crop_offset_x", 30) + integer("crop_offset_y", 20) + integer("crop_width", 100) +
+                           integer("crop_height", 50);
+  const Compiled c = compile_film(kBox + size("320", "200") + crop);
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const FilmSettings& film = c.tables().film;
+  EXPECT_EQ(film.width, 100);
+  EXPECT_EQ(film.height, 50);
+  EXPECT_EQ(film.crop_x, 30);
+  EXPECT_EQ(film.crop_y, 20);
+  EXPECT_EQ(film.full_width, 320);
+  EXPECT_EQ(film.full_height, 200);
+  EXPECT_EQ(c.info().width, 100);
+  // The camera looks at the whole film.
+  const auto& whole = compile_film(kBox + size("320", "200")).tables().camera;
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(c.tables().camera.base[i], whole.base[i]);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(c.tables().camera.du[i], whole.du[i]);
+}
+
+TEST(Hdrfilm, CropsToTheFilmsEndUnlessTold) {
+  const FilmSettings film = compile_film(kBox + size("320", "200") + integer("crop_offset_x", 300)).tables().film;
+  EXPECT_EQ(film.width, 20);
+  EXPECT_EQ(film.height, 200);
+}
+
+TEST(Hdrfilm, RefusesCropsBeyondTheFilm) {
+  EXPECT_THAT(compile_film(kBox + size("320", "200") + integer("crop_offset_x", 320)).messages(),
+              ElementsAre("error: 'crop_offset_x' is 320 [an integer from 0 to 319]"));
+  EXPECT_THAT(
+      compile_film(kBox + size("320", "200") + integer("crop_offset_y", 190) + integer("crop_height", 11)).messages(),
+      ElementsAre("error: 'crop_height' is 11 [an integer from 1 to 10]"));
+  EXPECT_THAT(compile_film(kBox + text("crop_width", "all")).messages(),
+              ElementsAre("error: 'crop_width' is a string [integer]"));
+}
+
+TEST(Hdrfilm, ACropWindowFollowsTheCommandLinesSize) {
+  LoadOptions options;
+  options.width = 640;
+  const Compiled c = compile_elements(R"(<sensor type="perspective"><film type="hdrfilm">)" + kBox +
+                                          size("320", "200") + integer("crop_offset_x", 30) +
+                                          integer("crop_width", 100) + "</film></sensor>" + kShape + kEmitter,
+                                      {}, options);
+  const FilmSettings& film = c.tables().film;
+  EXPECT_EQ(film.full_width, 640);
+  EXPECT_EQ(film.crop_x, 60);
+  EXPECT_EQ(film.width, 200);
+  EXPECT_EQ(film.height, 200);
+}
+
+TEST(Hdrfilm, SamplesTheBorderOrNot) {
+  EXPECT_FALSE(compile_film(kBox).tables().film.sample_border);
+  EXPECT_TRUE(compile_film(kBox + boolean("sample_border", true)).tables().film.sample_border);
+  EXPECT_TRUE(compile_film(kBox + boolean("high_quality_edges", true)).tables().film.sample_border);
+  EXPECT_THAT(compile_film(kBox + boolean("high_quality_edges", true) + boolean("sample_border", false)).messages(),
+              ElementsAre("error: 'high_quality_edges' says the contrary of 'sample_border' [one of them]"));
+}
+
+TEST(Hdrfilm, TakesEveryFilter) {
   EXPECT_THAT(compile_film(R"(<rfilter type="bix"/>)").messages(),
-              ElementsAre("error: unknown rfilter 'bix', did you mean 'box'? [box]"));
+              ElementsAre("error: unknown rfilter 'bix', did you mean 'box'? "
+                          "[box, catmullrom, gaussian, lanczos, mitchell, tent]"));
   EXPECT_THAT(compile_film(R"(<rfilter type="box"><float name="radius" value="2"/></rfilter>)").messages(),
               ElementsAre("error: unused parameter 'radius' of rfilter 'box' [no parameters]"));
 }
 
 TEST(Hdrfilm, TakesTheFormatsThatAreWritten) {
-  EXPECT_THAT(compile_film(kBox + R"(<string name="file_format" value="openexr"/>)" +
-                           R"(<string name="pixel_format" value="rgb"/>)" +
-                           R"(<string name="component_format" value="float32"/>)")
-                  .messages(),
-              IsEmpty());
-  EXPECT_THAT(compile_film(kBox + R"(<string name="component_format" value="float16"/>)").messages(),
-              ElementsAre("warning: component_format 'float16' is not supported yet: float32 is written [float32]"));
-  EXPECT_THAT(compile_film(kBox + R"(<string name="pixel_format" value="rgba"/>)").messages(),
-              ElementsAre("warning: pixel_format 'rgba' is not supported yet: rgb is written [rgb]"));
-  EXPECT_THAT(compile_film(kBox + R"(<string name="pixel_format" value="luminance"/>)").messages(),
-              ElementsAre("error: pixel_format 'luminance' is not supported yet [rgb]"));
-  EXPECT_THAT(compile_film(kBox + R"(<string name="file_format" value="pfm"/>)").messages(),
-              ElementsAre("error: file_format 'pfm' is not supported yet [openexr]"));
+  const Compiled standard = compile_film(kBox);
+  EXPECT_EQ(standard.tables().film.pixel_format, PixelFormat::rgb);
+  EXPECT_FALSE(standard.tables().film.half_precision);
+  const Compiled c = compile_film(kBox + text("file_format", "OpenEXR") + text("pixel_format", "luminance_alpha") +
+                                  text("component_format", "float16") + boolean("banner", false));
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(c.tables().film.pixel_format, PixelFormat::luminance_alpha);
+  EXPECT_TRUE(c.tables().film.half_precision);
+  EXPECT_THAT(compile_film(kBox + text("component_format", "uint32")).messages(),
+              ElementsAre("error: component_format 'uint32' is not supported [float32, float16]"));
+  EXPECT_THAT(compile_film(kBox + text("pixel_format", "bgr")).messages(),
+              ElementsAre("error: pixel_format 'bgr' is not supported [rgb, rgba, xyz, xyza, luminance, "
+                          "luminance_alpha]"));
+  EXPECT_THAT(compile_film(kBox + text("file_format", "pfm")).messages(),
+              ElementsAre("error: file_format 'pfm' is not supported [openexr, exr]"));
 }
 
 TEST(Hdrfilm, RefusesOtherFilmsAndParameters) {
@@ -94,7 +155,8 @@ TEST(Hdrfilm, RefusesOtherFilmsAndParameters) {
               ElementsAre("error: film 'specfilm' is not supported yet [hdrfilm]"));
   EXPECT_THAT(compile_film(kBox + R"(<integer name="widht" value="5"/>)").messages(),
               ElementsAre("error: unused parameter 'widht' of film 'hdrfilm', did you mean 'width'? "
-                          "[component_format, file_format, height, pixel_format, width]"));
+                          "[banner, component_format, crop_height, crop_offset_x, crop_offset_y, crop_width, "
+                          "file_format, height, high_quality_edges, pixel_format, sample_border, width]"));
 }
 
 TEST(Hdrfilm, TheCommandLinesSizeWins) {

@@ -70,6 +70,7 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
       std::any_of(tables.shapes.begin(), tables.shapes.end(), [](const ShapeRecord& s) { return s.smooth != 0; });
   view.camera = tables.camera;
   view.film = tables.film;
+  view.filter = tables.filter.data();
   view.sampler = tables.sampler;
   view.integrator = tables.integrator;
   view.integrator.rr_depth = std::min(view.integrator.rr_depth, kLatestRoulette);

@@ -3,6 +3,6 @@
 
 namespace norrsken {
 
-FilterKind compile_rfilter_box(Parameters&) { return FilterKind::box; }
+FilterRecord compile_rfilter_box(Parameters&, Builder&) { return {}; }
 
 }  // namespace norrsken

@@ -27,6 +27,7 @@ struct FilmView {
   std::uint32_t* counts = nullptr;  ///< samples that were added, per pixel; kSomeDropped says that others were not
   float* features = nullptr;  ///< 8 planes or null: depth, normal XYZ, albedo RGB (sums), object id (first sample)
   std::uint32_t width = 0, height = 0;
+  bool weighted = false;  ///< samples carry weights of the reconstruction filter
 
   std::size_t pixels() const { return static_cast<std::size_t>(width) * height; }
   double* sum_plane(std::uint32_t k) const { return sums + k * pixels(); }

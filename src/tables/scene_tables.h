@@ -100,22 +100,57 @@ struct LightRecord {
   std::uint32_t parameters = kNone;
 };
 
-/// A pinhole: film position (px, py) in pixels looks along normalize(base + px * du + py * dv), world space.
+/// Camera models as kernels tell them apart.
+enum class CameraKind : std::uint32_t {
+#define NORRSKEN_CAMERA(kind, Model) kind,
+#include "camera/list.def"
+#undef NORRSKEN_CAMERA
+  count
+};
+
+/// Film position (px, py), in pixels from the corner of the whole film, has the point base + px * du + py * dv: on the
+/// near plane (orthographic), or, seen from `origin`, one unit ahead (perspective) or in the plane of focus (thinlens).
 struct CameraRecord {
+  CameraKind kind;
   float origin[3];
   float base[3];
   float du[3];
   float dv[3];
   float forward[3];  ///< unit; near and far are distances along it
   float near_clip, far_clip;
+  float lens_x[3], lens_y[3];  ///< thinlens: radii of the lens
 };
 
 enum class SamplerKind : std::uint32_t { independent, sobol };
-enum class FilterKind : std::uint32_t { box };
+/// Reconstruction filters are sampled: in closed form (box) or from a table.
+enum class FilterKind : std::uint32_t { box, tabulated };
 
+/// A filter's table in SceneTables::filter, arrays one behind the other (src/rfilter/filter.h says what they hold).
+struct FilterRecord {
+  FilterKind kind = FilterKind::box;
+  std::uint32_t nodes = 0;  ///< of the piecewise linear filter from 0 to its radius
+  std::uint32_t cells = 0;  ///< of the guide into them
+  std::uint32_t edges = 0;  ///< pixels from the film's border on, counted from 0, whose filter reaches beyond it
+  bool signs = false;       ///< it has negative lobes
+};
+
+/// The colour channels that image files have, and whether they have alpha.
+enum class PixelFormat : std::uint32_t { rgb, rgba, xyz, xyza, luminance, luminance_alpha };
+
+/// What is rendered is a rectangle (the crop window) of the whole film.
 struct FilmSettings {
-  int width = 0, height = 0;
-  FilterKind filter = FilterKind::box;
+  int width = 0, height = 0;            ///< of the rectangle
+  int full_width = 0, full_height = 0;  ///< of the film that the camera sees
+  int crop_x = 0, crop_y = 0;           ///< the rectangle's corner in it
+  bool sample_border = false;           ///< filters of pixels at the border reach beyond it
+  FilterRecord filter;
+  PixelFormat pixel_format = PixelFormat::rgb;
+  bool half_precision = false;  ///< image files hold 16-bit floats
+
+  bool has_alpha() const {
+    return pixel_format == PixelFormat::rgba || pixel_format == PixelFormat::xyza ||
+           pixel_format == PixelFormat::luminance_alpha;
+  }
 };
 
 struct SamplerSettings {
@@ -151,6 +186,7 @@ struct SceneTables {
   float radius = 0;
   CameraRecord camera{};
   FilmSettings film;
+  std::vector<float> filter;
   SamplerSettings sampler;
   IntegratorSettings integrator;
 

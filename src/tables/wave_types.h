@@ -38,6 +38,7 @@ struct SceneView {
   bool any_area_light = false;
   CameraRecord camera;
   FilmSettings film;
+  const float* filter = nullptr;  ///< the reconstruction filter's table, if it has one
   SamplerSettings sampler;
   IntegratorSettings integrator;
   AccelView accel;
@@ -84,6 +85,7 @@ enum SlotField : std::uint32_t {
   kSlotBlue,
   kSlotKey,
   kSlotIndex,
+  kSlotWeight,  ///< of the reconstruction filter; only written and read if it is not a box
   kSlotDepth,
   kSlotNormalX,
   kSlotNormalY,

@@ -48,6 +48,15 @@ inline void drop_non_finite(const WaveJob& job, const FilmView& film, const Queu
   }
 }
 
+/// Applies the weights that the reconstruction filter gave the samples of a row.
+NORRSKEN_INLINE void weigh_row(const Queue& slots, std::uint32_t slot, std::uint32_t n) {
+  const float* weights = slots.field(kSlotWeight) + slot;
+  for (std::uint32_t channel = kSlotRed; channel <= kSlotBlue; ++channel) {
+    float* values = slots.field(channel) + slot;
+    for (std::uint32_t i = 0; i < n; ++i) values[i] *= weights[i];
+  }
+}
+
 inline void accumulate_film(const WaveJob& job, SamplerKind sampler, const Queue& slots, const FilmView& film,
                             DroppedSamples& dropped) {
   for (std::uint32_t s = 0; s < job.sample_count; ++s) {
@@ -62,6 +71,7 @@ inline void accumulate_film(const WaveJob& job, SamplerKind sampler, const Queue
           !all_finite(slots.field(kSlotBlue) + slot, job.width)) {
         drop_non_finite(job, film, slots, sample, slot, pixel, dropped);
       }
+      if (film.weighted) weigh_row(slots, slot, job.width);
       for (std::uint32_t channel = 0; channel < 3; ++channel) {
         const float* values = slots.field(kSlotRed + channel) + slot;
         add_row(film.sum_plane(first_plane + channel) + pixel, values, job.width);

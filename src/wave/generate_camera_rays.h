@@ -1,7 +1,10 @@
 // Stage: the wave's job -> slots and RAYS.
 #pragma once
 
+#include "camera/orthographic.h"
 #include "camera/perspective.h"
+#include "camera/thinlens.h"
+#include "rfilter/filter.h"
 #include "sampler/sampler.h"
 #include "wave/records.h"
 
@@ -11,9 +14,13 @@ NORRSKEN_INLINE SampleKey load_sample_key(const Queue& slots, UInt slot, Mask ac
   return {gather_uint(slots.field(kSlotKey), slot, active), gather_uint(slots.field(kSlotIndex), slot, active)};
 }
 
-inline void generate_camera_rays(const SceneView& scene, const WaveJob& job, Queue& slots, Queue& rays) {
+template <class Camera, class Filter>
+inline void generate_rays_of(const SceneView& scene, const Filter& filter, const WaveJob& job, Queue& slots,
+                             Queue& rays) {
   const Sampler sampler{scene.sampler.kind};
+  const FilmSettings& film = scene.film;
   const std::uint32_t pixels = job.pixel_count(), stride = job.pixel_stride();
+  const UInt crop_x(static_cast<std::uint32_t>(film.crop_x)), crop_y(static_cast<std::uint32_t>(film.crop_y));
   const Float inverse_width(1.0f / static_cast<float>(job.width));
   slots.count = job.slot_count();
   rays.count = 0;
@@ -24,7 +31,9 @@ inline void generate_camera_rays(const SceneView& scene, const WaveJob& job, Que
       const UInt local = UInt(first) + lane_index();
       const UInt row = to_uint((to_float(local) + Float(0.5f)) * inverse_width);
       const UInt x = UInt(job.x0) + local - row * UInt(job.width), y = UInt(job.y0) + row;
-      const UInt pixel = y * UInt(static_cast<std::uint32_t>(scene.film.width)) + x;
+      // Counted over the whole film: a crop window shows the same samples as the film that it is cut from.
+      const UInt film_x = x + crop_x, film_y = y + crop_y;
+      const UInt pixel = film_y * UInt(static_cast<std::uint32_t>(film.full_width)) + film_x;
       const SampleKey key = make_sample_key(scene.sampler.kind, scene.sampler.seed, pixel, job.first_sample + s);
 
       for (std::uint32_t channel = kSlotRed; channel <= kSlotBlue; ++channel) {
@@ -33,14 +42,36 @@ inline void generate_camera_rays(const SceneView& scene, const WaveJob& job, Que
       store(slots.field(kSlotKey) + slot_base, key.key);
       store(slots.field(kSlotIndex) + slot_base, key.index);
 
-      // The box filter, sampled: a point of the pixel.
-      const Vec2f jitter = sampler.sample_2d(key, camera_dimension::kFilm);
-      const CameraRay camera_ray = sample_perspective(scene.camera, to_float(x) + jitter.x, to_float(y) + jitter.y);
+      const FilterSample in_pixel = filter.sample(x, y, sampler.sample_2d(key, camera_dimension::kFilm), active);
+      if (Filter::kWeighted) store(slots.field(kSlotWeight) + slot_base, in_pixel.weight);
+      Vec2f lens{Float(0.0f), Float(0.0f)};
+      if (Camera::kUsesLens) lens = sampler.sample_2d(key, camera_dimension::kLens);
+      const CameraRay camera_ray =
+          Camera::sample(scene.camera, to_float(film_x) + in_pixel.dx, to_float(film_y) + in_pixel.dy, lens);
       const Float one(1.0f);
       push(rays,
            Ray{camera_ray.origin, camera_ray.direction, {one, one, one}, Float(0.0f), UInt(slot_base) + lane_index()},
            active);
     }
+  }
+}
+
+/// The camera and the filter are the same for a whole render.
+inline void generate_camera_rays(const SceneView& scene, const WaveJob& job, Queue& slots, Queue& rays) {
+  const bool box = scene.film.filter.kind == FilterKind::box;
+  switch (scene.camera.kind) {
+#define NORRSKEN_CAMERA(kind, Model)                                            \
+  case CameraKind::kind:                                                        \
+    if (box) {                                                                  \
+      generate_rays_of<Model>(scene, BoxFilter{}, job, slots, rays);            \
+    } else {                                                                    \
+      generate_rays_of<Model>(scene, TabulatedFilter(scene), job, slots, rays); \
+    }                                                                           \
+    break;
+#include "camera/list.def"
+#undef NORRSKEN_CAMERA
+    case CameraKind::count:
+      break;
   }
 }
 

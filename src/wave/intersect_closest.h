@@ -1,7 +1,7 @@
 // Stage: RAYS -> LIGHT HITS, HITS by BSDF kind, and MISSES where the scene has an environment.
 #pragma once
 
-#include "camera/perspective.h"
+#include "camera/camera.h"
 #include "wave/surface.h"
 
 namespace norrsken::NORRSKEN_ISA {

@@ -1,0 +1,38 @@
+// What a camera model (src/camera/NAME.h, listed in list.def) gives the kernels.
+//
+//   struct Model {
+//     static constexpr bool kUsesLens;  // sample() looks at `lens`
+//     // `px` and `py` in pixels from the top left corner of the whole film, `lens` in the unit square
+//     static CameraRay sample(const CameraRecord&, Float px, Float py, Vec2f lens);
+//   };
+//
+// Measure: one ray per film position and lens position; every film position counts the same.
+#pragma once
+
+#include "math/warp.h"
+#include "tables/scene_tables.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+struct CameraRay {
+  Vec3f origin;     ///< on the near plane
+  Vec3f direction;  ///< unit
+};
+
+/// The film position on the plane that the record's base, du and dv span.
+NORRSKEN_INLINE Vec3f film_point(const CameraRecord& camera, Float px, Float py) {
+  return fma(broadcast(camera.du), px, fma(broadcast(camera.dv), py, broadcast(camera.base)));
+}
+
+/// The ray through `origin`, begun where it meets the near plane.
+NORRSKEN_INLINE CameraRay start_at_near_plane(const CameraRecord& camera, const Vec3f& origin, const Vec3f& direction) {
+  const Float to_near_plane = Float(camera.near_clip) / dot(direction, broadcast(camera.forward));
+  return {fma(direction, to_near_plane, origin), direction};
+}
+
+/// How far along a ray from the near plane the far plane is.
+NORRSKEN_INLINE Float distance_to_far_plane(const CameraRecord& camera, const Vec3f& direction) {
+  return Float(camera.far_clip - camera.near_clip) / dot(direction, broadcast(camera.forward));
+}
+
+}  // namespace norrsken::NORRSKEN_ISA

@@ -1,0 +1,44 @@
+// thinlens: a perspective camera with a lens, out of focus where the scene is nearer or farther than its plane of focus.
+//
+// Parameters
+//   aperture_radius      number above 0, scene units, required: the lens's radius
+//   focus_distance       number above 0, scene units along the axis (default: far_clip): where the picture is sharp
+//   fov, focal_length, fov_axis, near_clip, far_clip, to_world  as for `perspective`
+// Children: film, sampler.
+// Measure: every film point and every point of the lens has the same weight.
+// Departures: an aperture_radius of 0, which Mitsuba replaces by a tiny one, is refused: that camera is `perspective`.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+#include "camera/camera_host.h"
+#include "compile/field_of_view.h"
+#include "compile/plugins.h"
+
+namespace norrsken {
+
+CameraRecord compile_sensor_thinlens(Parameters& p, Builder& builder, const FilmSettings& film) {
+  CameraRecord camera{};
+  camera.kind = CameraKind::thinlens;
+  const double half_width = half_width_of_view(p, static_cast<double>(film.full_width) / film.full_height);
+  read_clip_planes(p, camera);
+  const double radius = p.number("aperture_radius", 1, 0, kMaxCoordinate, Ends::open_below);
+  if (!p.has("aperture_radius")) {
+    p.error("aperture_radius", "sensor 'thinlens' needs a parameter 'aperture_radius'",
+            "<float name=\"aperture_radius\" value=\"...\"/>");
+  }
+  const double focus =
+      p.number("focus_distance", static_cast<double>(camera.far_clip), 0, kMaxCoordinate, Ends::open_below);
+  const CameraFrame frame = read_rigid_frame(p);
+  store(camera.origin, frame.origin);
+  store(camera.forward, frame.forward);
+  span_film(camera, frame, film, focus * frame.forward, focus * half_width, 0, 0);
+  store(camera.lens_x, radius * frame.left);
+  store(camera.lens_y, radius * frame.up);
+  builder.describe(p.node(), fmt::format("{:.4g} degrees wide, lens {:.4g} wide, sharp at {:.4g}",
+                                         glm::degrees(2 * std::atan(half_width)), 2 * radius, focus));
+  return camera;
+}
+
+}  // namespace norrsken
