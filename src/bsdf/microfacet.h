@@ -13,6 +13,7 @@
 
 #include "math/special.h"
 #include "math/warp.h"
+#include "texture/parameter_reader.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -51,13 +52,17 @@ struct Microfacet {
     return zero_unless(dot(v, m) * v.z > Float(0.0f), g);
   }
 
+  /// Smith's masking of all facets that face v, v.z > 0, without approximation.
+  NORRSKEN_INLINE Float exact_masking(const Vec3f& v) const {
+    const Float tan2 = stretched_tan2(v);
+    Float g = Float(2.0f) / (Float(1.0f) + sqrt(Float(1.0f) + tan2));
+    if (any(!ggx)) g = select(ggx, g, Float(2.0f) / beckmann_visible_area(sqrt(tan2)));
+    return g;
+  }
+
   /// Density of sample_visible; wo.z > 0.
   NORRSKEN_INLINE Float visible_pdf_sa(const Vec3f& wo, const Vec3f& m) const {
-    return density(m) * visible_pdf_over_density(wo, m);
-  }
-  /// The same as a multiple of density(m).
-  NORRSKEN_INLINE Float visible_pdf_over_density(const Vec3f& wo, const Vec3f& m) const {
-    return exact_masking(wo) * max(dot(wo, m), Float(0.0f)) / wo.z;
+    return density(m) * exact_masking(wo) * max(dot(wo, m), Float(0.0f)) / wo.z;
   }
 
   /// A normal as often as its facets are seen from `wo`; wo.z > 0.
@@ -76,15 +81,7 @@ struct Microfacet {
     return fma(x, x, y * y) / (v.z * v.z);
   }
 
-  /// Smith's masking, v.z > 0. Beckmann: Walter et al. 2007, the exact form before equation 27.
-  NORRSKEN_INLINE Float exact_masking(const Vec3f& v) const {
-    const Float tan2 = stretched_tan2(v);
-    Float g = Float(2.0f) / (Float(1.0f) + sqrt(Float(1.0f) + tan2));
-    if (any(!ggx)) g = select(ggx, g, Float(2.0f) / beckmann_visible_area(sqrt(tan2)));
-    return g;
-  }
-
-  /// Twice the projected area of visible facets over that of the surface: 2 / G1.
+  /// 2 / G1: the sum that Walter et al. 2007 have in the denominator before equation 27.
   static NORRSKEN_INLINE Float beckmann_visible_area(Float tan_theta) {
     const Float cot = Float(1.0f) / tan_theta;
     return fma(tan_theta * Float(kInvSqrtPi), exp(-cot * cot), Float(1.0f) + erf(cot));
@@ -131,5 +128,10 @@ struct Microfacet {
   static constexpr float kInvSqrtPi = 0.564189583547756f;
   static constexpr float kLastErf = 0.99999994f;  ///< the last float before 1
 };
+
+/// From the floats that `Roughness` (microfacet_host.h) is stored as: two scalars, and 1 for GGX.
+NORRSKEN_INLINE Microfacet load_microfacet(const ParameterReader& p, std::uint32_t k) {
+  return {max(p.scalar(k), Float(kMinAlpha)), max(p.scalar(k + 2), Float(kMinAlpha)), p.number(k + 4) > Float(0.5f)};
+}
 
 }  // namespace norrsken::NORRSKEN_ISA
