@@ -33,6 +33,23 @@ std::uint64_t physical_memory() {
   return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes);
 }
 
+/// Room for `count` more and something to spare, which costs nothing before it is touched: what comes behind a large
+/// mesh must not make it move, and many small ones must not move what is there each time.
+template <class T>
+void make_room(std::size_t count, std::vector<T>& values) {
+  if (values.capacity() - values.size() < count)
+    values.reserve(std::max(values.size() + count + count / 8, values.size() + values.size() / 2));
+}
+
+/// Copies `from` behind `to` and frees it.
+template <class T, std::size_t N>
+void append(std::vector<std::array<T, N>>&& from, std::vector<T>& to) {
+  const std::vector<std::array<T, N>> source = std::move(from);
+  if (source.empty()) return;
+  make_room(N * source.size(), to);
+  to.insert(to.end(), source.front().data(), source.front().data() + N * source.size());
+}
+
 }  // namespace
 
 std::string film_memory_message(int width, int height, std::uint64_t memory) {
@@ -264,15 +281,16 @@ void Builder::compile_shape(const Node& node) {
           Material{.front = add_material(BsdfKind::diffuse, ParameterBlock().add(ColorParameter{glm::dvec3(0.5)}))};
     material = *default_material_;
   }
-  const std::optional<ShapeGeometry> geometry = plugin->compile(p, *this);
+  std::optional<ShapeGeometry> geometry = plugin->compile(p, *this);
+  if (geometry && geometry->analytic) complain_about_plugin(node, {"rectangle or a mesh"}, diagnostics_);
   // An empty shape stands in for a broken one, so that its emitter's complaints are heard too.
-  const std::uint32_t shape = add_shape(geometry.value_or(ShapeGeometry{}), material);
+  const std::uint32_t shape = add_shape(std::move(geometry).value_or(ShapeGeometry{}), material);
   if (emitter_child) compile_emitter(*emitter_child->node, shape);
   refuse_kinds_to_come(p);
   p.finish();
 }
 
-std::uint32_t Builder::add_shape(const ShapeGeometry& geometry, Material material) {
+std::uint32_t Builder::add_shape(ShapeGeometry geometry, Material material) {
   const auto shape = static_cast<std::uint32_t>(tables().shapes.size());
   const bool sphere = !geometry.spheres.empty();
   auto& surfaces = sphere ? spheres_ : tables().surfaces;
@@ -288,43 +306,47 @@ std::uint32_t Builder::add_shape(const ShapeGeometry& geometry, Material materia
                         shape});
     record.flip_normals = flip_normals;
   }
-  if (!sphere) add_triangles(geometry.mesh, material, shape);
-  record.primitive_count = static_cast<std::uint32_t>(surfaces.size()) - record.first_primitive;
   record.smooth = !geometry.mesh.normals.empty();
+  if (!sphere) add_triangles(std::move(geometry.mesh), material, shape);
+  record.primitive_count = static_cast<std::uint32_t>(surfaces.size()) - record.first_primitive;
   tables().shapes.push_back(record);
   return shape;
 }
 
-void Builder::add_triangles(const MeshData& mesh, Material material, std::uint32_t shape) {
+void Builder::add_triangles(MeshData mesh, Material material, std::uint32_t shape) {
   SceneTables& t = tables();
   const std::size_t base = t.positions.size() / 3;
   if (base + mesh.positions.size() > kMaxElements || t.surfaces.size() + mesh.triangles.size() > kMaxElements) {
     diagnostics_.error({}, "the scene has too many triangles", fmt::format("{} vertices and triangles", kMaxElements));
     return;
   }
-  for (const auto& position : mesh.positions) t.positions.insert(t.positions.end(), position.begin(), position.end());
+  append(std::move(mesh.positions), t.positions);
   // Per-vertex arrays exist for all vertices as soon as one shape needs them.
   if (!t.normals.empty() || !mesh.normals.empty()) {
     t.normals.resize(3 * base);
-    for (const auto& normal : mesh.normals) t.normals.insert(t.normals.end(), normal.begin(), normal.end());
+    append(std::move(mesh.normals), t.normals);
     t.normals.resize(t.positions.size());
   }
   if (!t.texcoords.empty() || !mesh.texcoords.empty()) {
     t.texcoords.resize(2 * base);
-    for (const auto& texcoord : mesh.texcoords) t.texcoords.insert(t.texcoords.end(), texcoord.begin(), texcoord.end());
+    append(std::move(mesh.texcoords), t.texcoords);
     t.texcoords.resize(t.positions.size() / 3 * 2);
   }
-  const auto corner = [&](std::uint32_t vertex) {
-    const auto& p = mesh.positions[vertex];
+  const std::size_t first = t.triangle_vertices.size();
+  append(std::move(mesh.triangles), t.triangle_vertices);
+  for (std::size_t i = first; i < t.triangle_vertices.size(); ++i)
+    t.triangle_vertices[i] += static_cast<std::uint32_t>(base);
+
+  const auto corner = [&](std::size_t i) {
+    const float* p = t.positions.data() + std::size_t{3} * t.triangle_vertices[i];
     return glm::dvec3(p[0], p[1], p[2]);
   };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    for (const std::uint32_t vertex : {a, b, c}) {
-      t.triangle_vertices.push_back(static_cast<std::uint32_t>(base + vertex));
-    }
-    const glm::dvec3 n = glm::normalize(glm::cross(corner(b) - corner(a), corner(c) - corner(a)));
+  make_room((t.triangle_vertices.size() - first) / 3, t.surfaces);
+  for (std::size_t i = first; i < t.triangle_vertices.size(); i += 3) {
+    const glm::dvec3 a = corner(i);
+    const glm::dvec3 n = glm::normalize(glm::cross(corner(i + 1) - a, corner(i + 2) - a));
     t.surfaces.push_back({{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z),
-                           static_cast<float>(glm::dot(n, corner(a)))},
+                           static_cast<float>(glm::dot(n, a))},
                           material.front,
                           material.back,
                           kNone,

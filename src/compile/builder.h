@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/analytic_shape.h"
 #include "compile/compile.h"
 #include "compile/plugin_table.h"
 #include "formats/mesh_data.h"
@@ -39,6 +40,7 @@ struct ShapeGeometry {
   };
   MeshData mesh;
   std::vector<Sphere> spheres;
+  std::optional<AnalyticShape> analytic;
 };
 
 /// For a film that does not fit `memory` bytes.
@@ -135,8 +137,9 @@ class Builder {
   FilmSettings film(Parameters& sensor, const LoadOptions& options);
   void compile_shape(const Node& node);
   void compile_emitter(const Node& node, std::uint32_t shape);
-  std::uint32_t add_shape(const ShapeGeometry& geometry, Material material);
-  void add_triangles(const MeshData& mesh, Material material, std::uint32_t shape);
+  std::uint32_t add_shape(ShapeGeometry geometry, Material material);
+  /// Lets go of the mesh's arrays as it copies them: a large mesh is never in memory twice.
+  void add_triangles(MeshData mesh, Material material, std::uint32_t shape);
   void append_spheres();
   void bound_surfaces();
   void choose_lights();

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <numbers>
 
 #include "base/text.h"
+#include "math/special.h"
 
 namespace norrsken {
 namespace {
@@ -48,7 +51,15 @@ void wind_as_normals_say(MeshData& mesh) {
   }
 }
 
+void normalize_normals(MeshData& mesh, const glm::dmat3& normal_to_world) {
+  for (auto& normal : mesh.normals) normal = to_float(normalized_or_zero(normal_to_world * to_dvec(normal)));
+}
+
 bool move_to_world(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
+  if (to_world == glm::dmat4(1)) {
+    normalize_normals(mesh, glm::dmat3(1));
+    return true;
+  }
   for (auto& position : mesh.positions) {
     const glm::dvec3 moved = to_world * glm::dvec4(to_dvec(position), 1);
     for (int axis = 0; axis < 3; ++axis) {
@@ -59,16 +70,37 @@ bool move_to_world(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
     }
     position = to_float(moved);
   }
-  const glm::dmat3 normal_to_world = glm::transpose(glm::inverse(glm::dmat3(to_world)));
-  for (auto& normal : mesh.normals) normal = to_float(normalized_or_zero(normal_to_world * to_dvec(normal)));
+  normalize_normals(mesh, glm::transpose(glm::inverse(glm::dmat3(to_world))));
   return true;
+}
+
+/// Leaves the triangles that `keep` names, and their attributes.
+void keep_triangles(MeshData& mesh, const std::vector<std::uint32_t>& keep) {
+  for (std::size_t i = 0; i < keep.size(); ++i) mesh.triangles[i] = mesh.triangles[keep[i]];
+  mesh.triangles.resize(keep.size());
+  for (MeshAttribute& attribute : mesh.attributes) {
+    if (!attribute.per_face) continue;
+    const std::size_t channels = attribute.channels;
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+      for (std::size_t k = 0; k < channels; ++k)
+        attribute.values[i * channels + k] = attribute.values[keep[i] * channels + k];
+    }
+    attribute.values.resize(keep.size() * channels);
+  }
 }
 
 bool drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
   const std::size_t before = mesh.triangles.size();
-  std::erase_if(mesh.triangles, [&](const Triangle& t) {
-    return !std::isnormal(static_cast<float>(glm::length(area_normal(mesh, t)) / 2));
-  });
+  const auto has_area = [&](const Triangle& t) {
+    return std::isnormal(static_cast<float>(glm::length(area_normal(mesh, t)) / 2));
+  };
+  if (!std::all_of(mesh.triangles.begin(), mesh.triangles.end(), has_area)) {
+    std::vector<std::uint32_t> keep;
+    for (std::size_t i = 0; i < before; ++i) {
+      if (has_area(mesh.triangles[i])) keep.push_back(static_cast<std::uint32_t>(i));
+    }
+    keep_triangles(mesh, keep);
+  }
   const std::size_t dropped = before - mesh.triangles.size();
   if (mesh.triangles.empty()) {
     p.error(p.has("filename") ? "filename" : "to_world",
@@ -84,6 +116,19 @@ bool drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
   return true;
 }
 
+/// The file's bytes are let go of when they have been read.
+std::optional<MeshData> read_file(const std::string& path, Parameters& p, Builder& builder, const ReadMesh& read) {
+  std::string problem;
+  const std::optional<std::string> bytes = builder.files().read(path, problem);
+  if (!bytes) {
+    p.error("filename", fmt::format("cannot read {}: {}", quoted(path, 200), problem),
+            fmt::format("a readable {} file", p.node().plugin));
+    return std::nullopt;
+  }
+  builder.diagnostics().named_at(path, p.where("filename"));
+  return read(*bytes, path, builder.diagnostics());
+}
+
 }  // namespace
 
 void reverse_winding(MeshData& mesh) {
@@ -91,18 +136,29 @@ void reverse_winding(MeshData& mesh) {
 }
 
 void compute_normals(MeshData& mesh) {
-  std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
+  constexpr float kPi = static_cast<float>(std::numbers::pi);
+  mesh.normals.assign(mesh.positions.size(), {0, 0, 0});
   for (const Triangle& t : mesh.triangles) {
-    const glm::dvec3 face_normal = normalized_or_zero(area_normal(mesh, t));
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 corner = to_dvec(mesh.positions[t[k]]);
-      const glm::dvec3 e1 = to_dvec(mesh.positions[t[(k + 1) % 3]]) - corner;
-      const glm::dvec3 e2 = to_dvec(mesh.positions[t[(k + 2) % 3]]) - corner;
-      sums[t[k]] += std::atan2(glm::length(glm::cross(e1, e2)), glm::dot(e1, e2)) * face_normal;
-    }
+    const glm::dvec3 a = to_dvec(mesh.positions[t[0]]);
+    const glm::dvec3 ab = to_dvec(mesh.positions[t[1]]) - a, ac = to_dvec(mesh.positions[t[2]]) - a;
+    const glm::dvec3 normal = glm::cross(ab, ac);
+    const double area2 = glm::length(normal);
+    if (!(area2 > 0 && std::isfinite(area2))) continue;
+    // All three corners have the same cross product; the third angle is what the other two leave of a half turn.
+    const auto angle = [area2](double dot) {
+      const double scale = std::max(area2, std::abs(dot));
+      return isa_host::atan2(static_cast<float>(area2 / scale), static_cast<float>(dot / scale)).v;
+    };
+    const float at_a = angle(glm::dot(ab, ac)), at_b = angle(glm::dot(ab, ab - ac));
+    const glm::vec3 unit(normal / area2);
+    const auto add = [&](std::uint32_t vertex, float weight) {
+      for (int axis = 0; axis < 3; ++axis) mesh.normals[vertex][axis] += weight * unit[axis];
+    };
+    add(t[0], at_a);
+    add(t[1], at_b);
+    add(t[2], std::max(kPi - at_a - at_b, 0.0f));
   }
-  mesh.normals.resize(sums.size());
-  for (std::size_t i = 0; i < sums.size(); ++i) mesh.normals[i] = to_float(normalized_or_zero(sums[i]));
+  normalize_normals(mesh, glm::dmat3(1));
 }
 
 bool normals_are_flat(const MeshData& mesh) {
@@ -126,42 +182,38 @@ bool place_mesh(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
   return true;
 }
 
-std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, ReadMesh& read, bool flip_tex_coords) {
+std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, const ReadMesh& read,
+                                               std::optional<bool> flip_tex_coords) {
   const std::string path = p.file("filename");
   const glm::dmat4 to_world = p.transform("to_world");
-  const bool face_normals = p.boolean("face_normals", false);
+  bool face_normals = p.boolean("face_normals", false);
   const bool flip_normals = p.boolean("flip_normals", false);
-  flip_tex_coords = p.boolean("flip_tex_coords", flip_tex_coords);
+  if (flip_tex_coords) flip_tex_coords = p.boolean("flip_tex_coords", *flip_tex_coords);
   if (path.empty()) return std::nullopt;
 
-  std::string problem;
-  const std::optional<std::string> bytes = builder.files().read(path, problem);
-  if (!bytes) {
-    p.error("filename", fmt::format("cannot read {}: {}", quoted(path, 200), problem),
-            fmt::format("a readable {} file", p.node().plugin));
-    return std::nullopt;
-  }
-  builder.diagnostics().named_at(path, p.where("filename"));
-  std::optional<MeshData> mesh = read(*bytes, path, builder.diagnostics());
+  std::optional<MeshData> mesh = read_file(path, p, builder, read);
   if (!mesh) return std::nullopt;
-  if (face_normals) mesh->normals.clear();
+  face_normals |= mesh->face_normals;
+  if (face_normals) mesh->normals = {};
   if (!place_mesh(*mesh, to_world, p)) return std::nullopt;
   if (!face_normals && mesh->normals.empty()) {
     compute_normals(*mesh);
     fill_missing_normals(*mesh);
   }
-  if (!mesh->normals.empty() && normals_are_flat(*mesh)) mesh->normals.clear();
+  if (!mesh->normals.empty() && normals_are_flat(*mesh)) mesh->normals = {};
   if (flip_normals) {
     reverse_winding(*mesh);
     for (auto& normal : mesh->normals) normal = to_float(-to_dvec(normal));
   }
-  if (flip_tex_coords) {
+  if (flip_tex_coords.value_or(false)) {
     for (auto& texcoord : mesh->texcoords) texcoord[1] = 1 - texcoord[1];
   }
   builder.describe(p.node(),
                    fmt::format("{} triangle{}{}", mesh->triangles.size(), mesh->triangles.size() == 1 ? "" : "s",
                                mesh->normals.empty() ? "" : ", smooth"));
-  return ShapeGeometry{.mesh = std::move(*mesh), .spheres = {}};
+  ShapeGeometry geometry;
+  geometry.mesh = std::move(*mesh);
+  return geometry;
 }
 
 }  // namespace norrsken

@@ -5,7 +5,7 @@
 //   to_world         transform (default identity); vertex normals go through its inverse transpose
 //   face_normals     boolean (default false): shade flat, whatever normals the file has
 //   flip_normals     boolean (default false): turn the surface inside out
-//   flip_tex_coords  boolean: v becomes 1 - v
+//   flip_tex_coords  boolean: v becomes 1 - v (default true for obj, false for ply; serialized has no such parameter)
 //
 // Normals, as Mitsuba documents them: the file's own; without any, the mean of the faces around each vertex weighed
 // with the angle of their corner, so only vertices that faces do not share stay sharp. A mesh without normals of its
@@ -18,6 +18,7 @@
 // Sources: Thuermer and Wuethrich 1998, Computing Vertex Normals from Polygonal Facets (the weights).
 #pragma once
 
+#include <functional>
 #include <glm/mat4x4.hpp>
 #include <optional>
 #include <string>
@@ -27,10 +28,13 @@
 
 namespace norrsken {
 
-using ReadMesh = std::optional<MeshData>(std::string_view bytes, const std::string& path, Diagnostics& diagnostics);
+using ReadMesh =
+    std::function<std::optional<MeshData>(std::string_view bytes, const std::string& path, Diagnostics& diagnostics)>;
 
-/// A shape that reads its mesh from the file that its parameters name.
-std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, ReadMesh& read, bool flip_tex_coords);
+/// A shape that reads its mesh from the file that its parameters name. `flip_tex_coords` is that parameter's default;
+/// formats without one do not take it.
+std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, const ReadMesh& read,
+                                               std::optional<bool> flip_tex_coords);
 
 /// Takes positions and normals to the world, winds triangles as their normals say, and drops triangles without an area
 /// (a warning with their number). False after an error: nothing with an area, or a vertex too far away.

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "compile/compile_testing.h"
 
@@ -154,6 +156,74 @@ TEST(MeshShape, SmoothAndFlatShapesShareTheNormalsArray) {
   EXPECT_THAT(std::vector(t.normals.begin(), t.normals.begin() + 9), Each(0.0f));
   // The rectangle came last and is the only one with texture coordinates.
   EXPECT_THAT(std::vector(t.texcoords.end() - 8, t.texcoords.end()), ElementsAre(0, 0, 1, 0, 1, 1, 0, 1));
+}
+
+/// A serialized file of one triangle in the plane z = 2 with normals (1, 0, 1); flags as given. Deflated without
+/// compression: a stored block (RFC 1951, section 3.2.4) in zlib's frame (RFC 1950).
+std::string serialized(std::uint32_t flags) {
+  const auto bytes_of = [](auto value) { return std::string(reinterpret_cast<const char*>(&value), sizeof value); };
+  std::string body = bytes_of(flags) + std::string("a\0", 2) + bytes_of(std::uint64_t{3}) + bytes_of(std::uint64_t{1});
+  for (const float x : {0.f, 0.f, 2.f, 1.f, 0.f, 2.f, 0.f, 1.f, 2.f}) body += bytes_of(x);
+  if ((flags & 1) != 0) {
+    for (const float x : {1.f, 0.f, 1.f, 1.f, 0.f, 1.f, 1.f, 0.f, 1.f}) body += bytes_of(x);
+  }
+  for (const std::uint32_t vertex : {0, 1, 2}) body += bytes_of(vertex);
+  const auto size = static_cast<std::uint16_t>(body.size());
+  std::uint32_t a = 1, b = 0;  // Adler-32
+  for (const char c : body) a = (a + static_cast<unsigned char>(c)) % 65521, b = (b + a) % 65521;
+  std::string sum = bytes_of(b << 16 | a);
+  std::reverse(sum.begin(), sum.end());
+  const std::string mesh = std::string("\x1c\x04\x04\0", 4) + "\x78\x01\x01" + bytes_of(size) +
+                           bytes_of(static_cast<std::uint16_t>(~size)) + body + sum;
+  return mesh + mesh + bytes_of(std::uint64_t{0}) + bytes_of(std::uint64_t{mesh.size()}) + bytes_of(std::uint32_t{2});
+}
+std::string serialized_shape(const std::string& inside = "") {
+  return R"(<shape type="serialized"><string name="filename" value="a.serialized"/>)" + inside + "</shape>";
+}
+
+TEST(MeshShape, ReadsSerialized) {
+  for (const char* index : {"", R"(<integer name="shape_index" value="1"/>)"}) {
+    const Compiled c = compile_shape(serialized_shape(index), {{"a.serialized", serialized(0x1000)}});
+    ASSERT_THAT(c.messages(), IsEmpty());
+    EXPECT_THAT(plane(c, 0), ElementsAre(0, 0, 1, 2));
+  }
+}
+
+TEST(MeshShape, SerializedMeshesMayAskForFaceNormals) {
+  EXPECT_EQ(compile_shape(serialized_shape(), {{"a.serialized", serialized(0x1001)}}).tables().shapes.at(0).smooth, 1u);
+  EXPECT_EQ(compile_shape(serialized_shape(), {{"a.serialized", serialized(0x1011)}}).tables().shapes.at(0).smooth, 0u);
+}
+
+TEST(MeshShape, SerializedHasParametersOfItsOwn) {
+  const Files files{{"a.serialized", serialized(0x1000)}};
+  EXPECT_THAT(compile_shape(serialized_shape(R"(<integer name="shape_index" value="2"/>)"), files).messages(),
+              ElementsAre("error: there is no mesh 2 (named at scene.xml:2:165) ['shape_index' 0 to 1]"));
+  EXPECT_THAT(compile_shape(serialized_shape(R"(<integer name="shape_index" value="-1"/>)"), files).messages(),
+              ElementsAre("error: 'shape_index' is -1 [an integer from 0 to 4294967295]"));
+  EXPECT_THAT(compile_shape(serialized_shape(R"(<float name="shape_index" value="1"/>)"), files).messages(),
+              ElementsAre("error: 'shape_index' is a float [integer]"));
+  EXPECT_THAT(compile_shape(serialized_shape(boolean("flip_tex_coords", "true")), files).messages(),
+              ElementsAre("error: unused parameter 'flip_tex_coords' of shape 'serialized' "
+                          "[face_normals, filename, flip_normals, shape_index, to_world]"));
+  EXPECT_THAT(
+      compile_shape(R"(<shape type="serialized"/>)").messages(),
+      ElementsAre(
+          "error: shape 'serialized' needs a parameter 'filename' [<string name=\"filename\" value=\"...\"/>]"));
+}
+
+TEST(MeshShape, NormalsOfSliversAndTinyMeshesAreWeighedToo) {
+  // A pyramid's tip: four faces of which two are slivers. The angles say how much each counts, at any scale.
+  const std::string tip =
+      "v 0 0 1\nv 1 -0.01 0\nv 1 0.01 0\nv -1 0.01 0\nv -1 -0.01 0\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\n";
+  for (const char* scale : {"1", "1e-12", "1e9"}) {
+    const Compiled c =
+        compile_shape(mesh("a.obj", transform(std::string("<scale value=\"") + scale + "\"/>")), {{"a.obj", tip}});
+    ASSERT_THAT(c.messages(), IsEmpty()) << scale;
+    const auto& n = c.tables().normals;
+    EXPECT_THAT(std::vector(&n[0], &n[3]), Pointwise(FloatNear(1e-5f), {0.0f, 0.0f, 1.0f})) << scale;
+    EXPECT_NEAR(std::hypot(n[3], n[4], n[5]), 1, 1e-6) << scale;
+    EXPECT_GT(n[3], 0.5) << scale;
+  }
 }
 
 TEST(MeshShape, DropsTrianglesWithoutAnArea) {

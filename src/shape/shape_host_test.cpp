@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "compile/compile_testing.h"
 
 namespace norrsken::testing {
@@ -22,6 +24,8 @@ std::vector<float> plane(const Compiled& c, std::size_t triangle) {
   return {g[0], g[1], g[2], g[3]};
 }
 std::vector<float> sphere_of(const Compiled& c) { return plane(c, 0); }
+
+const std::string kShapes = "cube, cylinder, disk, obj, ply, rectangle, serialized, sphere";
 
 TEST(Rectangle, IsTheSquareThatFacesZ) {
   const Compiled c = compile_shape(rectangle(""));
@@ -58,6 +62,54 @@ TEST(Rectangle, RefusesPlacementsThatFlattenIt) {
               ElementsAre("error: no triangle of the shape has an area "
                           "[triangles whose corners do not lie on one line]"));
   EXPECT_FALSE(compile_shape(rectangle(transform(R"(<scale value="1e18"/>)"))).scene);
+}
+
+std::string cube(const std::string& inside) { return "<shape type=\"cube\">" + inside + "</shape>"; }
+
+TEST(Cube, FacesOutwards) {
+  const std::string flip = R"(<boolean name="flip_normals" value="true"/>)";
+  for (const auto& [inside, distance] : {std::pair{std::string(), 1.0f},
+                                         {transform(R"(<scale x="-1"/>)"), 1.0f},
+                                         {flip, -1.0f},
+                                         {flip + transform(R"(<scale value="2"/>)"), -2.0f}}) {
+    const Compiled c = compile_shape(cube(inside));
+    ASSERT_THAT(c.messages(), IsEmpty());
+    ASSERT_EQ(c.tables().triangle_count(), 12u);
+    EXPECT_EQ(c.tables().shapes.at(0).smooth, 0u);
+    std::set<std::vector<float>> normals;
+    for (std::size_t i = 0; i < 12; ++i) {
+      const auto p = plane(c, i);
+      EXPECT_FLOAT_EQ(p[3], distance) << inside << i;
+      normals.insert({p[0], p[1], p[2]});
+    }
+    EXPECT_EQ(normals.size(), 6u) << inside;
+  }
+}
+
+TEST(Cube, EveryFaceHasTheWholeUnitSquareOfTexture) {
+  const Compiled c = compile_shape(cube(""));
+  const SceneTables& t = c.tables();
+  ASSERT_EQ(t.positions.size(), 3 * 24u);
+  for (std::size_t face = 0; face < 6; ++face) {
+    // Of the corners, u and v make the square; where Mitsuba has its (0, 0) is a corner of each face.
+    const float* uv = &t.texcoords[8 * face];
+    EXPECT_THAT(std::vector(uv, uv + 8), ElementsAre(0, 1, 1, 1, 1, 0, 0, 0)) << face;
+  }
+  const auto origin = [&](std::size_t face) {
+    return std::vector(&t.positions[12 * face + 9], &t.positions[12 * face + 12]);
+  };
+  EXPECT_THAT(origin(0), ElementsAre(-1, -1, -1));
+  EXPECT_THAT(origin(1), ElementsAre(1, 1, 1));
+  EXPECT_THAT(origin(2), ElementsAre(1, -1, 1));
+  EXPECT_THAT(origin(3), ElementsAre(-1, -1, 1));
+  EXPECT_THAT(origin(4), ElementsAre(-1, -1, -1));
+  EXPECT_THAT(origin(5), ElementsAre(-1, 1, -1));
+}
+
+TEST(Cube, TakesTheParametersOfMeshesWithoutAFile) {
+  EXPECT_THAT(compile_shape(cube(R"(<boolean name="face_normals" value="true"/>)")).messages(), IsEmpty());
+  EXPECT_THAT(compile_shape(cube(R"(<float name="size" value="2"/>)")).messages(),
+              ElementsAre("error: unused parameter 'size' of shape 'cube' [face_normals, flip_normals, to_world]"));
 }
 
 TEST(Sphere, HasCentreAndRadius) {
@@ -138,10 +190,10 @@ TEST(ShapeHost, RefusesWhatDoesNotBelongIntoAShape) {
               ElementsAre("error: medium 'homogeneous' is not supported yet [a scene without medium]"));
   EXPECT_THAT(compile_shape(sphere(R"(<bsdf type="diffuse"/><bsdf type="diffuse"/>)")).messages(),
               ElementsAre("error: shape 'sphere' has more than one bsdf [one bsdf]"));
-  EXPECT_THAT(compile_shape(R"(<shape type="cube"/>)").messages(),
-              ElementsAre("error: shape 'cube' is not supported yet [obj, ply, rectangle, sphere]"));
+  EXPECT_THAT(compile_shape(R"(<shape type="merge"/>)").messages(),
+              ElementsAre("error: shape 'merge' is not supported yet [" + kShapes + "]"));
   EXPECT_THAT(compile_shape(R"(<shape type="sfere"/>)").messages(),
-              ElementsAre("error: unknown shape 'sfere', did you mean 'sphere'? [obj, ply, rectangle, sphere]"));
+              ElementsAre("error: unknown shape 'sfere', did you mean 'sphere'? [" + kShapes + "]"));
 }
 
 }  // namespace
