@@ -20,15 +20,18 @@ std::vector<float> triangle_extents(const SceneTables& scene) {
 }  // namespace
 
 Accel::Accel(const SceneTables& scene, AccelKind kind) {
-  spheres_ = build_spheres(scene, view_.emitter_sphere_count);
+  spheres_ = build_spheres(scene);
   view_.kind = kind;
-  view_.spheres = spheres_.data();
   view_.sphere_count = static_cast<std::uint32_t>(spheres_.size());
   if (kind != AccelKind::planes) {
     triangle_extent_ = triangle_extents(scene);
     view_.triangle_extent = triangle_extent_.data();
   }
   if (kind == AccelKind::planes) {
+    const auto others = std::stable_partition(spheres_.begin(), spheres_.end(), [&](const SphereRecord& s) {
+      return scene.surfaces[s.primitive].light != kNone;
+    });
+    view_.emitter_sphere_count = static_cast<std::uint32_t>(others - spheres_.begin());
     planes_ = build_planes(scene);
     view_.planes = planes_.planes.data();
     view_.polygons = planes_.polygons.data();
@@ -38,8 +41,9 @@ Accel::Accel(const SceneTables& scene, AccelKind kind) {
     view_.emitters = planes_.emitters;
   } else if (kind == AccelKind::embree) {
     embree_ = std::make_unique<EmbreeScene>(scene, spheres_);
-    view_.embree_scene = embree_->scene();
+    embree_->show(view_);
   }
+  view_.spheres = spheres_.data();
 }
 
 }  // namespace norrsken

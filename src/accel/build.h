@@ -21,24 +21,33 @@ struct PlaneTables {
 /// Merges coplanar triangles into convex polygons and sorts them into planes.
 PlaneTables build_planes(const SceneTables& scene);
 
-/// The spheres, those of lights first.
-std::vector<SphereRecord> build_spheres(const SceneTables& scene, std::uint32_t& emitter_count);
+/// The spheres in order of their primitives.
+std::vector<SphereRecord> build_spheres(const SceneTables& scene);
 
-/// An Embree scene: geometry 0 the triangles, geometry 1 the spheres (user geometry).
+/// The world as an Embree scene, with a scene of its own for every group that instances place in it.
 class EmbreeScene {
  public:
-  explicit EmbreeScene(const SceneTables& scene, const std::vector<SphereRecord>& spheres);
+  /// Borrows both arguments.
+  EmbreeScene(const SceneTables& scene, const std::vector<SphereRecord>& spheres);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  void* scene() const { return scene_; }  ///< RTCScene
+  /// Fills in what the view has of Embree.
+  void show(AccelView& view) const;
 
  private:
-  EmbreeScene();  // an empty scene; from here on the destructor cleans up whatever fails
+  EmbreeScene();  // nothing but a device; from here on the destructor cleans up whatever fails
+
+  std::uint32_t add_group(const SceneTables& scene, const std::vector<SphereRecord>& spheres, std::uint32_t group);
+  void add_instances(const SceneTables& scene, const std::vector<std::uint32_t>& group_geometries);
 
   void* device_ = nullptr;
-  void* scene_ = nullptr;
+  void* positions_ = nullptr;  ///< RTCBuffer of all vertices
+  std::vector<void*> scenes_;  ///< RTCScene: the world, then the groups
+  std::vector<EmbreeGeometry> geometries_;
+  std::vector<std::uint32_t> instance_geometries_;
+  std::uint32_t first_instance_ = 0;
 };
 
 /// Up to how many primitives the planes win against Embree: the planes' rate grows with the register's width, Embree's
@@ -52,6 +61,7 @@ inline constexpr std::uint32_t kPlanesAtMost = 4096;
 /// One of the three, with all that its view borrows.
 class Accel {
  public:
+  /// Analytic primitives and instances are for Embree alone.
   Accel(const SceneTables& scene, AccelKind kind);
   const AccelView& view() const { return view_; }
 

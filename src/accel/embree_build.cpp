@@ -1,93 +1,77 @@
 #include <embree3/rtcore.h>
 
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 
 #include "accel/build.h"
-#include "accel/sphere.h"
+#include "accel/embree_user.h"
 
 namespace norrsken {
 namespace {
 
-using isa_host::cross_sphere;
-using isa_host::Vec3f;
+/// Consecutive primitives of one class and one group.
+struct Run {
+  enum class Class { triangles, spheres, analytic } of;
+  std::uint32_t first, count;
+};
 
-void sphere_bounds(const RTCBoundsFunctionArguments* args) {
-  const SphereRecord& s = static_cast<const SphereRecord*>(args->geometryUserPtr)[args->primID];
-  // A little larger, so that rounding cannot put the surface outside of its box.
-  const float r = s.radius * (1 + 4 * std::numeric_limits<float>::epsilon());
-  args->bounds_o->lower_x = s.center[0] - r, args->bounds_o->upper_x = s.center[0] + r;
-  args->bounds_o->lower_y = s.center[1] - r, args->bounds_o->upper_y = s.center[1] + r;
-  args->bounds_o->lower_z = s.center[2] - r, args->bounds_o->upper_z = s.center[2] + r;
+Run::Class class_of(const SceneTables& scene, std::uint32_t primitive) {
+  if (primitive < scene.triangle_count()) return Run::Class::triangles;
+  return primitive < scene.first_analytic ? Run::Class::spheres : Run::Class::analytic;
 }
 
-/// Distance along the ray, or infinity.
-float sphere_distance(const SphereRecord& s, RTCRayN* rays, unsigned n, unsigned i) {
-  const Vec3f o{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
-  const Vec3f d{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-  const isa_host::SphereCrossing c = cross_sphere(s.center, s.radius, o, d);
-  const float t = c.t0.v > 0.0f ? c.t0.v : c.t1.v;
-  const bool found = c.crosses.v && t > 0.0f && t < RTCRayN_tfar(rays, n, i);
-  return found ? t : std::numeric_limits<float>::infinity();
-}
-
-void intersect_sphere(const RTCIntersectFunctionNArguments* args) {
-  const SphereRecord& s = static_cast<const SphereRecord*>(args->geometryUserPtr)[args->primID];
-  RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
-  RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
-  for (unsigned i = 0; i < args->N; ++i) {
-    if (args->valid[i] == 0) continue;
-    const float t = sphere_distance(s, rays, args->N, i);
-    if (t == std::numeric_limits<float>::infinity()) continue;
-    const float sign = s.back_flip != 0 ? -1.0f : 1.0f;
-    RTCRayN_tfar(rays, args->N, i) = t;
-    RTCHitN_Ng_x(hits, args->N, i) =
-        sign * (RTCRayN_org_x(rays, args->N, i) + t * RTCRayN_dir_x(rays, args->N, i) - s.center[0]);
-    RTCHitN_Ng_y(hits, args->N, i) =
-        sign * (RTCRayN_org_y(rays, args->N, i) + t * RTCRayN_dir_y(rays, args->N, i) - s.center[1]);
-    RTCHitN_Ng_z(hits, args->N, i) =
-        sign * (RTCRayN_org_z(rays, args->N, i) + t * RTCRayN_dir_z(rays, args->N, i) - s.center[2]);
-    RTCHitN_geomID(hits, args->N, i) = args->geomID;
-    RTCHitN_primID(hits, args->N, i) = args->primID;
-    RTCHitN_instID(hits, args->N, i, 0) = args->context->instID[0];
+std::vector<Run> runs_of_group(const SceneTables& scene, std::uint32_t group) {
+  std::vector<Run> runs;
+  for (const ShapeRecord& shape : scene.shapes) {
+    if (shape.group != group || shape.primitive_count == 0) continue;
+    const Run run{class_of(scene, shape.first_primitive), shape.first_primitive, shape.primitive_count};
+    const bool continues =
+        !runs.empty() && runs.back().of == run.of && runs.back().first + runs.back().count == run.first;
+    if (continues) {
+      runs.back().count += run.count;
+    } else {
+      runs.push_back(run);
+    }
   }
+  return runs;
 }
 
-void occlude_sphere(const RTCOccludedFunctionNArguments* args) {
-  const SphereRecord& s = static_cast<const SphereRecord*>(args->geometryUserPtr)[args->primID];
-  for (unsigned i = 0; i < args->N; ++i) {
-    if (args->valid[i] == 0) continue;
-    if (sphere_distance(s, args->ray, args->N, i) == std::numeric_limits<float>::infinity()) continue;
-    RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
-  }
-}
-
-void attach_triangles(RTCDevice device, RTCScene target, const SceneTables& scene) {
+RTCGeometry make_triangles(RTCDevice device, const SceneTables& scene, RTCBuffer positions, const Run& run) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  const std::size_t vertices = scene.positions.size() / 3, triangles = scene.triangle_count();
-  void* positions =
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices);
-  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                          3 * sizeof(std::uint32_t), triangles);
-  if (positions == nullptr || indices == nullptr) throw std::bad_alloc();
-  std::memcpy(positions, scene.positions.data(), vertices * 3 * sizeof(float));
-  std::memcpy(indices, scene.triangle_vertices.data(), triangles * 3 * sizeof(std::uint32_t));
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(target, geometry, 0);
-  rtcReleaseGeometry(geometry);
+  rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions, 0, 3 * sizeof(float),
+                       scene.positions.size() / 3);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, scene.triangle_vertices.data(),
+                             std::size_t{run.first} * 3 * sizeof(std::uint32_t), 3 * sizeof(std::uint32_t), run.count);
+  return geometry;
 }
 
-void attach_spheres(RTCDevice device, RTCScene target, const std::vector<SphereRecord>& spheres) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(spheres.size()));
-  rtcSetGeometryUserData(geometry, const_cast<SphereRecord*>(spheres.data()));
-  rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, intersect_sphere);
-  rtcSetGeometryOccludedFunction(geometry, occlude_sphere);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(target, geometry, 1);
-  rtcReleaseGeometry(geometry);
+RTCGeometry make_geometry(RTCDevice device, const SceneTables& scene, const std::vector<SphereRecord>& spheres,
+                          RTCBuffer positions, const Run& run) {
+  switch (run.of) {
+    case Run::Class::triangles:
+      return make_triangles(device, scene, positions, run);
+    case Run::Class::spheres:
+      return make_embree_spheres(device, {spheres.data() + (run.first - scene.triangle_count()), run.count});
+    case Run::Class::analytic:
+      return make_embree_analytics(device, {scene.analytics.data() + (run.first - scene.first_analytic), run.count});
+  }
+  return nullptr;
+}
+
+RTCScene new_scene(RTCDevice device) {
+  RTCScene scene = rtcNewScene(device);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  return scene;
+}
+
+RTCBuffer copy_positions(RTCDevice device, const std::vector<float>& positions) {
+  // Embree reads 16 bytes from every vertex.
+  RTCBuffer buffer = rtcNewBuffer(device, (positions.size() + 1) * sizeof(float));
+  void* data = buffer == nullptr ? nullptr : rtcGetBufferData(buffer);
+  if (data == nullptr) throw std::bad_alloc();
+  if (!positions.empty()) std::memcpy(data, positions.data(), positions.size() * sizeof(float));
+  return buffer;
 }
 
 }  // namespace
@@ -96,23 +80,63 @@ EmbreeScene::EmbreeScene() {
   RTCDevice device = rtcNewDevice(nullptr);
   if (device == nullptr) throw std::runtime_error("Embree cannot create a device");
   device_ = device;
-  scene_ = rtcNewScene(device);
 }
 
 EmbreeScene::EmbreeScene(const SceneTables& scene, const std::vector<SphereRecord>& spheres) : EmbreeScene() {
   const auto device = static_cast<RTCDevice>(device_);
-  const auto embree = static_cast<RTCScene>(scene_);
-  rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(embree, RTC_BUILD_QUALITY_HIGH);
-  if (scene.triangle_count() > 0) attach_triangles(device, embree, scene);
-  if (!spheres.empty()) attach_spheres(device, embree, spheres);
-  rtcCommitScene(embree);
+  positions_ = copy_positions(device, scene.positions);
+  add_group(scene, spheres, kNone);
+  std::vector<std::uint32_t> group_geometries;
+  for (std::uint32_t g = 0; g < scene.group_count; ++g) group_geometries.push_back(add_group(scene, spheres, g));
+  add_instances(scene, group_geometries);
+  rtcCommitScene(static_cast<RTCScene>(scenes_.front()));
   if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build the scene");
 }
 
 EmbreeScene::~EmbreeScene() {
-  rtcReleaseScene(static_cast<RTCScene>(scene_));
+  for (void* scene : scenes_) rtcReleaseScene(static_cast<RTCScene>(scene));
+  if (positions_ != nullptr) rtcReleaseBuffer(static_cast<RTCBuffer>(positions_));
   rtcReleaseDevice(static_cast<RTCDevice>(device_));
+}
+
+/// Returns the number of its first geometry. The world, group kNone, is left open for instances.
+std::uint32_t EmbreeScene::add_group(const SceneTables& scene, const std::vector<SphereRecord>& spheres,
+                                     std::uint32_t group) {
+  const auto device = static_cast<RTCDevice>(device_);
+  RTCScene embree = new_scene(device);
+  scenes_.push_back(embree);
+  const auto first = static_cast<std::uint32_t>(geometries_.size());
+  for (const Run& run : runs_of_group(scene, group)) {
+    RTCGeometry geometry = make_geometry(device, scene, spheres, static_cast<RTCBuffer>(positions_), run);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(embree, geometry, static_cast<std::uint32_t>(geometries_.size()) - first);
+    rtcReleaseGeometry(geometry);
+    geometries_.push_back({run.first, 1});
+  }
+  if (group != kNone) rtcCommitScene(embree);
+  return first;
+}
+
+void EmbreeScene::add_instances(const SceneTables& scene, const std::vector<std::uint32_t>& group_geometries) {
+  first_instance_ =
+      group_geometries.empty() ? static_cast<std::uint32_t>(geometries_.size()) : group_geometries.front();
+  std::uint32_t id = first_instance_;
+  for (const InstanceRecord& instance : scene.instances) {
+    RTCGeometry geometry = rtcNewGeometry(static_cast<RTCDevice>(device_), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, static_cast<RTCScene>(scenes_[1 + instance.group]));
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, instance.place.world_from_local);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(static_cast<RTCScene>(scenes_.front()), geometry, id++);
+    rtcReleaseGeometry(geometry);
+    instance_geometries_.push_back(group_geometries[instance.group]);
+  }
+}
+
+void EmbreeScene::show(AccelView& view) const {
+  view.embree_scene = scenes_.front();
+  view.embree_geometries = geometries_.data();
+  view.instance_geometries = instance_geometries_.data();
+  view.first_instance = first_instance_;
 }
 
 }  // namespace norrsken

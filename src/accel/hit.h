@@ -1,6 +1,7 @@
 // What an intersector answers.
 #pragma once
 
+#include "math/affine.h"
 #include "math/vec3.h"
 #include "tables/scene_tables.h"
 
@@ -9,13 +10,25 @@ namespace norrsken::NORRSKEN_ISA {
 inline constexpr float kInfinity = __builtin_inff();
 
 /// Bit 31 of `primitive_side` says that the surface was hit from the side its normal does not point to; the rest is
-/// the primitive. Where nothing was hit, `t` is what the search began with.
+/// the primitive. `instance` is the one that the primitive was hit in, or kNone. Where nothing was hit, `t` is what the
+/// search began with.
 struct ClosestHit {
   Float t;
   UInt primitive_side;
+  UInt instance = UInt(kNone);
 };
 
 inline constexpr std::uint32_t kBackSide = 0x80000000u;
 inline constexpr std::uint32_t kPrimitiveMask = 0x7fffffffu;
+
+/// Where the instances stand, for lanes with one.
+NORRSKEN_INLINE Affine object_from_world(const InstanceRecord* instances, UInt instance, Mask active) {
+  constexpr std::uint32_t kFloats = sizeof(InstanceRecord) / sizeof(float);
+  return gather_affine(instances->place.local_from_world, instance * UInt(kFloats), active);
+}
+NORRSKEN_INLINE Affine world_from_object(const InstanceRecord* instances, UInt instance, Mask active) {
+  constexpr std::uint32_t kFloats = sizeof(InstanceRecord) / sizeof(float);
+  return gather_affine(instances->place.world_from_local, instance * UInt(kFloats), active);
+}
 
 }  // namespace norrsken::NORRSKEN_ISA

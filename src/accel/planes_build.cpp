@@ -137,7 +137,7 @@ bool bounds_the_scene(const SceneTables& scene, const ConvexPolygon& polygon) {
   };
   for (const std::uint32_t vertex : scene.triangle_vertices)
     extend(scene.positions.data() + std::size_t{3} * vertex, 0);
-  for (std::size_t i = scene.triangle_count(); i < scene.surfaces.size(); ++i) {
+  for (std::size_t i = scene.triangle_count(); i < scene.triangle_count() + scene.sphere_count(); ++i) {
     extend(scene.surfaces[i].geometry, static_cast<double>(scene.surfaces[i].geometry[3]));
   }
   for (const LightRecord& light : scene.lights) {
@@ -182,19 +182,16 @@ PlaneTables build_planes(const SceneTables& scene) {
   return tables;
 }
 
-std::vector<SphereRecord> build_spheres(const SceneTables& scene, std::uint32_t& emitter_count) {
+std::vector<SphereRecord> build_spheres(const SceneTables& scene) {
   std::vector<SphereRecord> spheres;
-  for (std::uint32_t i = scene.triangle_count(); i < scene.surfaces.size(); ++i) {
+  const std::uint32_t first = scene.triangle_count();
+  for (std::uint32_t i = first; i < first + scene.sphere_count(); ++i) {
     const SurfaceRecord& s = scene.surfaces[i];
     spheres.push_back({{s.geometry[0], s.geometry[1], s.geometry[2]},
                        s.geometry[3],
                        i,
                        scene.shapes[s.shape].flip_normals != 0 ? 0x80000000u : 0u});
   }
-  const auto others = std::stable_partition(spheres.begin(), spheres.end(), [&](const SphereRecord& s) {
-    return scene.surfaces[s.primitive].light != kNone;
-  });
-  emitter_count = static_cast<std::uint32_t>(others - spheres.begin());
   return spheres;
 }
 

@@ -214,7 +214,7 @@ bool coplanar(const ConvexPolygon& a, const ConvexPolygon& b) {
 double scene_scale(const SceneTables& scene) {
   double scale = std::numeric_limits<double>::min();
   for (const float p : scene.positions) scale = std::max(scale, std::abs(static_cast<double>(p)));
-  for (std::size_t i = scene.triangle_count(); i < scene.surfaces.size(); ++i) {
+  for (std::size_t i = scene.triangle_count(); i < scene.triangle_count() + scene.sphere_count(); ++i) {
     const float* g = scene.surfaces[i].geometry;
     for (int k = 0; k < 3; ++k)
       scale = std::max(scale, std::abs(static_cast<double>(g[k])) + static_cast<double>(g[3]));

@@ -19,10 +19,18 @@ constexpr struct {
 AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes,
                        Diagnostics& diagnostics) {
   const std::size_t primitives = tables.surfaces.size();
-  const AccelKind automatic = primitives <= planes_up_to(lanes) ? AccelKind::planes : AccelKind::embree;
+  const bool embree_only = !tables.analytics.empty() || !tables.instances.empty();
+  const AccelKind automatic = primitives <= planes_up_to(lanes) && !embree_only ? AccelKind::planes : AccelKind::embree;
   if (name == "auto") return automatic;
   for (const auto& accel : kAccels) {
     if (name != accel.name) continue;
+    if (accel.kind != AccelKind::embree && embree_only) {
+      diagnostics.error({},
+                        "accelerator '" + name + "' knows triangles and spheres only, and this scene has " +
+                            (tables.analytics.empty() ? "instances" : "other shapes"),
+                        "auto or embree");
+      return automatic;
+    }
     if (accel.kind == AccelKind::planes && primitives > kPlanesAtMost) {
       diagnostics.error(
           {},
@@ -58,6 +66,11 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   view.lights = tables.lights.data();
   view.triangle_count = tables.triangle_count();
   view.sphere_count = tables.sphere_count();
+  view.analytics = tables.analytics.data();
+  view.first_analytic = tables.first_analytic;
+  for (const AnalyticRecord& a : tables.analytics) view.analytic_kinds |= 1u << static_cast<std::uint32_t>(a.kind);
+  view.instances = tables.instances.data();
+  view.instance_count = static_cast<std::uint32_t>(tables.instances.size());
   view.light_count = static_cast<std::uint32_t>(tables.lights.size());
   for (const SurfaceRecord& s : tables.surfaces) {
     view.bsdf_kinds |= 1u << static_cast<std::uint32_t>(material_kind(s.material_front));

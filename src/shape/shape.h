@@ -32,4 +32,9 @@ struct LocalSurface {
   Vec3f dp_du, dp_dv;
 };
 
+NORRSKEN_INLINE LocalSurface select(Mask m, const LocalSurface& a, const LocalSurface& b) {
+  return {select(m, a.position, b.position), select(m, a.normal, b.normal), select(m, a.uv, b.uv),
+          select(m, a.dp_du, b.dp_du), select(m, a.dp_dv, b.dp_dv)};
+}
+
 }  // namespace norrsken::NORRSKEN_ISA

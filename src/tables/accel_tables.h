@@ -46,6 +46,12 @@ struct PlaneSet {
   std::uint32_t axis_begin[4] = {};
 };
 
+/// A geometry of an Embree scene: what its element i is in `surfaces`.
+struct EmbreeGeometry {
+  std::uint32_t first_primitive;
+  std::uint32_t step;  ///< 0 if all elements are one primitive, such as the voxels of a grid; otherwise 1
+};
+
 /// Borrowed arrays. `all` are the planes for closest hits. `occluders` are those that can come between two points of
 /// the scene; a plane that has the whole scene on one side cannot. `emitters` are those of area lights.
 struct AccelView {
@@ -58,6 +64,10 @@ struct AccelView {
   PlaneSet all, occluders, emitters;
   std::uint32_t emitter_sphere_count = 0;  ///< they come first among the spheres
   void* embree_scene = nullptr;            ///< RTCScene
+  /// Geometries by their ID, first the world's; those of instance i begin at instance_geometries[i].
+  const EmbreeGeometry* embree_geometries = nullptr;
+  const std::uint32_t* instance_geometries = nullptr;
+  std::uint32_t first_instance = 0;  ///< Embree's ID of the first instance, the others follow
   /// Largest absolute coordinate of each triangle's corners, which bounds the rounding of tests that begin from
   /// corners; null for planes, whose rounding does not depend on it.
   const float* triangle_extent = nullptr;

@@ -1,6 +1,7 @@
 // The scene as plain arrays: all that kernels may read. Filled by src/compile, never changed while rendering.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -57,9 +58,20 @@ constexpr TextureWord make_texture(TextureKind kind, std::uint32_t offset) {
 }
 constexpr TextureKind texture_kind(TextureWord word) { return static_cast<TextureKind>(word >> 24); }
 
-/// One per primitive, in order: all triangles, then all spheres. 32 bytes, gathered field by field.
+/// Shapes that have a formula of their own and a place, as kernels tell them apart.
+enum class AnalyticKind : std::uint32_t {
+#define NORRSKEN_ANALYTIC(kind, Model) kind,
+#include "shape/list.def"
+#undef NORRSKEN_ANALYTIC
+  count
+};
+
+/// One per primitive, in order: all triangles, then all spheres, then all analytic primitives. 32 bytes, gathered field
+/// by field.
 struct SurfaceRecord {
-  float geometry[4];            ///< triangle: unit geometric normal n and n.p; sphere: centre and radius
+  /// Triangle: unit geometric normal n and n.p; sphere: centre and radius; analytic: the bits of its index in `analytics`
+  /// and of the element's number in its shape.
+  float geometry[4];
   MaterialWord material_front;  ///< for rays that come from the side the normal points to; with kEmitsBit on lights
   MaterialWord material_back;
   std::uint32_t light;  ///< index into `lights` of the light this is part of, or kNone
@@ -73,6 +85,28 @@ struct ShapeRecord {
   std::uint32_t flip_normals = 0;           ///< 1 (spheres): the normal points to the centre
   std::uint32_t has_texcoords = 0;          ///< 1: the triangles' vertices have texture coordinates
   std::uint32_t object_from_world = kNone;  ///< spheres that are rotated: 9 floats in `parameters`, row by row
+  std::uint32_t group = kNone;              ///< the group it is in, or kNone for the world
+};
+
+/// Where something with a space of its own stands. Affine maps, row by row; the fourth of each row is the translation.
+struct Placement {
+  float world_from_local[12];
+  float local_from_world[12];
+};
+
+/// An analytic shape.
+struct AnalyticRecord {
+  Placement place;
+  AnalyticKind kind;
+  std::uint32_t flip_normals;  ///< 1: the local normal, taken to the world by the inverse transpose, is turned around
+  float area;                  ///< in the world
+  std::uint32_t parameters = kNone;  ///< offset of what else the kind keeps in `parameters`
+};
+
+/// A group of shapes in a place. What is in a group is stored once and has no place of its own in the world.
+struct InstanceRecord {
+  Placement place;
+  std::uint32_t group;
 };
 
 /// What next-event estimation chooses among. An area light is one record per triangle, parallelogram or sphere.
@@ -174,10 +208,14 @@ struct SceneTables {
   std::vector<float> normals;                    ///< 3 per vertex or empty if no shape is smooth
   std::vector<float> texcoords;                  ///< 2 per vertex or empty
   std::vector<std::uint32_t> triangle_vertices;  ///< 3 per triangle
-  std::vector<SurfaceRecord> surfaces;           ///< triangles, then spheres
+  std::vector<SurfaceRecord> surfaces;           ///< triangles, then spheres, then analytic primitives
   std::vector<ShapeRecord> shapes;
-  std::vector<float> parameters;  ///< of BSDFs, textures and lights, each at its own offset
-  std::vector<float> texels;      ///< of bitmaps and tables, each at its own offset
+  std::vector<AnalyticRecord> analytics;
+  std::vector<InstanceRecord> instances;
+  std::uint32_t group_count = 0;
+  std::uint32_t first_analytic = kNone;  ///< primitive; kNone if there is none
+  std::vector<float> parameters;         ///< of BSDFs, textures and lights, each at its own offset
+  std::vector<float> texels;             ///< of bitmaps and tables, each at its own offset
   std::vector<LightRecord> lights;
   std::uint32_t texture_kinds = 0;    ///< bit k: TextureKind k occurs
   bool needs_uv = false;              ///< some model looks at texture coordinates or tangents
@@ -191,7 +229,12 @@ struct SceneTables {
   IntegratorSettings integrator;
 
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(triangle_vertices.size() / 3); }
-  std::uint32_t sphere_count() const { return static_cast<std::uint32_t>(surfaces.size()) - triangle_count(); }
+  std::uint32_t sphere_count() const {
+    return std::min(first_analytic, static_cast<std::uint32_t>(surfaces.size())) - triangle_count();
+  }
+  std::uint32_t analytic_count() const {
+    return static_cast<std::uint32_t>(surfaces.size()) - sphere_count() - triangle_count();
+  }
 };
 
 }  // namespace norrsken

@@ -25,12 +25,16 @@ struct SceneView {
   const float* texels = nullptr;
   const float* texcoords = nullptr;  ///< null if no shape has any
   const LightRecord* lights = nullptr;
-  std::uint32_t triangle_count = 0, sphere_count = 0, light_count = 0;
-  std::uint32_t bsdf_kinds = 0;       ///< bit k: BsdfKind k occurs
-  std::uint32_t texture_kinds = 0;    ///< bit k: TextureKind k occurs
-  std::uint32_t light_kinds = 0;      ///< bit k: LightKind k occurs
-  std::uint32_t environment = kNone;  ///< index of the light that rays to nowhere see
-  float center[3] = {};               ///< of a sphere around all surfaces
+  const AnalyticRecord* analytics = nullptr;
+  const InstanceRecord* instances = nullptr;
+  std::uint32_t triangle_count = 0, sphere_count = 0, light_count = 0, instance_count = 0;
+  std::uint32_t first_analytic = kNone;  ///< primitive; kNone if there is none
+  std::uint32_t analytic_kinds = 0;      ///< bit k: AnalyticKind k occurs
+  std::uint32_t bsdf_kinds = 0;          ///< bit k: BsdfKind k occurs
+  std::uint32_t texture_kinds = 0;       ///< bit k: TextureKind k occurs
+  std::uint32_t light_kinds = 0;         ///< bit k: LightKind k occurs
+  std::uint32_t environment = kNone;     ///< index of the light that rays to nowhere see
+  float center[3] = {};                  ///< of a sphere around all surfaces
   float radius = 0;
   bool any_smooth = false;
   bool any_resolved = false;  ///< materials that are looked through at each hit occur
@@ -111,8 +115,15 @@ enum RayField : std::uint32_t {
   kRayFieldCount
 };
 /// A hit is its ray and where it ended.
-/// kHitBump is only written and read if the scene has `any_resolved`.
-enum HitField : std::uint32_t { kHitDistance = kRayFieldCount, kHitPrimitive, kHitMaterial, kHitBump, kHitFieldCount };
+/// kHitBump is only written and read if the scene has `any_resolved`, kHitInstance if it has instances.
+enum HitField : std::uint32_t {
+  kHitDistance = kRayFieldCount,
+  kHitPrimitive,
+  kHitMaterial,
+  kHitBump,
+  kHitInstance,
+  kHitFieldCount
+};
 enum ShadowField : std::uint32_t {
   kShadowOriginX,
   kShadowOriginY,

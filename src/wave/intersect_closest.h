@@ -28,15 +28,16 @@ inline void intersect_closest(const SceneView& scene, std::uint32_t hit_number, 
     active &= !missed;
     hit.t = closest.t;
     hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
+    hit.instance = closest.instance;
     hit.material = material_of(scene, hit.primitive, closest.primitive_side, active);
 
     const Mask emits = active & ((hit.material & UInt(kEmitsBit)) != UInt(0u));
-    if (any(emits)) push(memory.light_hits, hit, emits);
+    if (any(emits)) push(scene, memory.light_hits, hit, emits);
     const UInt kind_bits = hit.material & UInt(kMaterialKindMask);
     for (std::uint32_t kinds = scene.bsdf_kinds & wanted_kinds; kinds != 0; kinds &= kinds - 1) {
       const auto kind = static_cast<std::uint32_t>(__builtin_ctz(kinds));
       const Mask of_kind = active & (kind_bits == UInt(kind << 24));
-      if (any(of_kind)) push(memory.hits[kind], hit, of_kind);
+      if (any(of_kind)) push(scene, memory.hits[kind], hit, of_kind);
     }
   }
 }
@@ -63,9 +64,10 @@ inline void intersect_emitters(const SceneView& scene, const Queue& rays, WaveMe
     }
     hit.t = closest.t;
     hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
+    hit.instance = closest.instance;
     hit.material = material_of(scene, hit.primitive, closest.primitive_side, active);
     active &= (hit.material & UInt(kEmitsBit)) != UInt(0u);
-    if (any(active)) push(memory.light_hits, hit, active);
+    if (any(active)) push(scene, memory.light_hits, hit, active);
   }
 }
 

@@ -20,6 +20,7 @@ struct Hit {
   Float t;
   UInt primitive;
   UInt material;  ///< the word of the side that was hit
+  UInt instance;  ///< that it was hit in, or kNone
 };
 
 /// A ray that carries `contribution` to its slot unless something is within `t_max`.
@@ -57,16 +58,18 @@ NORRSKEN_INLINE void push(Queue& q, const Ray& r, Mask m) {
   q.count += c.count;
 }
 
-NORRSKEN_INLINE Hit load_hit(const Queue& q, std::uint32_t i) {
+NORRSKEN_INLINE Hit load_hit(const SceneView& scene, const Queue& q, std::uint32_t i) {
   return {load_ray(q, i), load(q.field(kHitDistance) + i), load_uint(q.field(kHitPrimitive) + i),
-          load_uint(q.field(kHitMaterial) + i)};
+          load_uint(q.field(kHitMaterial) + i),
+          scene.instance_count > 0 ? load_uint(q.field(kHitInstance) + i) : UInt(kNone)};
 }
-NORRSKEN_INLINE void push(Queue& q, const Hit& h, Mask m) {
+NORRSKEN_INLINE void push(const SceneView& scene, Queue& q, const Hit& h, Mask m) {
   const Compaction c = make_compaction(m);
   store_ray_fields(q, h.ray, c);
   compress_store(q.field(kHitDistance) + q.count, h.t, c);
   compress_store(q.field(kHitPrimitive) + q.count, h.primitive, c);
   compress_store(q.field(kHitMaterial) + q.count, h.material, c);
+  if (scene.instance_count > 0) compress_store(q.field(kHitInstance) + q.count, h.instance, c);
   q.count += c.count;
 }
 

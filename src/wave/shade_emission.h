@@ -11,7 +11,7 @@ inline void shade_emission(const SceneView& scene, const Queue& light_hits, Queu
   const Float light_samples(static_cast<float>(scene.integrator.emitter_samples));
   for (std::uint32_t i = 0; i < light_hits.count; i += kLanes) {
     const Mask active = first_lanes(light_hits.count - i);
-    const Hit hit = load_hit(light_hits, i);
+    const Hit hit = load_hit(scene, light_hits, i);
     const UInt light = gather_uint(surface_floats(scene) + 6, record_index(hit.primitive), active);
     const auto* base = reinterpret_cast<const float*>(scene.lights);
     const Vec3f emission = gather3(base + kLightEmission, light * UInt(kLightFloats), active);

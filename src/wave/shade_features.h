@@ -9,7 +9,7 @@ template <class Model>
 inline void shade_features(const SceneView& scene, const Queue& hits, Queue& slots) {
   for (std::uint32_t i = 0; i < hits.count; i += kLanes) {
     const Mask active = first_lanes(hits.count - i);
-    const Hit hit = load_hit(hits, i);
+    const Hit hit = load_hit(scene, hits, i);
     const SurfacePoint surface = make_surface_point(scene, hit, active);
     const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));
     const Vec3f albedo = Model::albedo(bsdf);

@@ -93,7 +93,7 @@ inline void shade_surface(const SceneView& scene, const ShadeSettings& settings,
   const bool go_on = settings.next_rays && (Model::kDelta || scene.integrator.diffuse_bounces);
   for (std::uint32_t i = begin; i < end; i += kLanes) {
     const Mask active = first_lanes(end - i);
-    const Hit hit = load_hit(hits, i);
+    const Hit hit = load_hit(scene, hits, i);
     const SurfacePoint surface = make_surface_point(scene, hit, active);
     const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));
     const Vec3f wo = surface.frame.to_local(-hit.ray.direction);

@@ -5,6 +5,7 @@
 #include "math/frame.h"
 #include "math/special.h"
 #include "texture/parameter_reader.h"
+#include "wave/placed_surface.h"
 #include "wave/records.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -25,6 +26,9 @@ NORRSKEN_INLINE UInt record_index(UInt primitive) { return primitive * UInt(size
 NORRSKEN_INLINE const float* surface_floats(const SceneView& scene) {
   return reinterpret_cast<const float*>(scene.surfaces);
 }
+
+/// a < n, for numbers below 2^31.
+NORRSKEN_INLINE Mask below(UInt a, std::uint32_t n) { return shift_right<31>(a - UInt(n)) != UInt(0u); }
 
 NORRSKEN_INLINE UInt shape_index(UInt shape) { return shape * UInt(sizeof(ShapeRecord) / sizeof(float)); }
 
@@ -126,16 +130,24 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
   const UInt index = record_index(hit.primitive);
   const Vec3f geometry = gather3(records, index, active);
   const Float fourth = gather(records + 3, index, active);
-  const Vec3f along = fma(hit.ray.direction, hit.t, hit.ray.origin);
+  // Everything is computed where the surface's tables are told: in the world, or in the space of an instance.
+  Vec3f along = fma(hit.ray.direction, hit.t, hit.ray.origin);
+  Mask instanced = Float(1.0f) < Float(0.0f);
+  if (scene.instance_count > 0) {
+    instanced = active & (hit.instance != UInt(kNone));
+    if (any(instanced)) along = select(instanced, hit_in_object(scene, hit, instanced), along);
+  }
 
   // A triangle's record is its plane: move the point onto it.
   SurfacePoint s{};
   s.normal = geometry;
   s.position = fma(geometry, fourth - dot(geometry, along), along);
   Float scale = largest(s.position);
-  const Mask sphere = active & !(to_float(hit.primitive) < Float(static_cast<float>(scene.triangle_count)));
+  const Mask triangle = active & below(hit.primitive, scene.triangle_count);
+  const Mask analytic = active & (scene.first_analytic == kNone ? Float(1.0f) < Float(0.0f)
+                                                                : !below(hit.primitive, scene.first_analytic));
+  const Mask sphere = active & !triangle & !analytic;
   if (scene.accel.triangle_extent != nullptr) {
-    const Mask triangle = active & !sphere;
     scale = max(scale, zero_unless(triangle, gather(scene.accel.triangle_extent, hit.primitive, triangle)));
   }
   if (scene.sphere_count > 0) {
@@ -146,10 +158,8 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
       scale = select(sphere, largest(s.position) + fourth, scale);
     }
   }
-  s.offset = scale * Float(kOffsetUlps);
 
   Vec3f shading = s.normal;
-  const Mask triangle = active & !sphere;
   if (scene.any_smooth || scene.needs_uv) {
     const auto* shapes = reinterpret_cast<const float*>(scene.shapes);
     s.texture.shape = gather_uint(records + 7, index, active);
@@ -164,6 +174,28 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
     }
     if (scene.needs_uv && any(sphere)) add_sphere_uv(scene, fourth, sphere, s);
   }
+  if (any(analytic)) {
+    const PlacedSurface p = analytic_surface(scene, bits(geometry.x), along, analytic);
+    s.position = select(analytic, p.position, s.position);
+    s.normal = select(analytic, p.normal, s.normal);
+    shading = select(analytic, p.shading, shading);
+    scale = select(analytic, p.scale, scale);
+    s.texture.uv = select(analytic, p.uv, s.texture.uv);
+    s.dp_du = select(analytic, p.dp_du, s.dp_du);
+    s.dp_dv = select(analytic, p.dp_dv, s.dp_dv);
+  }
+  if (any(instanced)) {
+    const PlacedSurface p = surface_in_world(
+        scene, hit.instance, {s.position, s.normal, shading, scale, s.texture.uv, s.dp_du, s.dp_dv}, instanced);
+    s.position = select(instanced, p.position, s.position);
+    s.normal = select(instanced, p.normal, s.normal);
+    shading = select(instanced, p.shading, shading);
+    scale = select(instanced, p.scale, scale);
+    s.dp_du = select(instanced, p.dp_du, s.dp_du);
+    s.dp_dv = select(instanced, p.dp_dv, s.dp_dv);
+  }
+  s.offset = scale * Float(kOffsetUlps);
+
   const Mask back = dot(s.normal, hit.ray.direction) > Float(0.0f);
   const Float sign = select(back, Float(-1.0f), Float(1.0f));
   if (scene.needs_uv) {

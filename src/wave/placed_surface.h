@@ -1,0 +1,86 @@
+// Points of surfaces that stand somewhere by an affine map: analytic shapes in the world or a group, groups in the world.
+//
+// None of this is inlined: most scenes have none, and every BSDF would repeat it.
+#pragma once
+
+#include "accel/hit.h"
+#include "shape/cylinder.h"
+#include "shape/disk.h"
+#include "tables/wave_types.h"
+#include "wave/records.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+struct PlacedSurface {
+  Vec3f position;
+  Vec3f normal, shading;  ///< unit
+  Float scale;            ///< what the rounding of the position along the normal is relative to
+  Vec2f uv;
+  Vec3f dp_du, dp_dv;
+};
+
+/// What rounding is relative to on the way of a point to the local space and back again, along the normal. `local` is
+/// what it is relative to within the local space.
+/// Source: forward error bounds of sums, as in Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 6.8.
+NORRSKEN_INLINE Float rounding_scale(const Affine& world_from_local, const Affine& local_from_world, const Vec3f& p,
+                                     const Vec3f& normal, Float local) {
+  const Vec3f there = local_from_world.magnitude(p);
+  const Vec3f back = world_from_local.magnitude({max(there.x, local), max(there.y, local), max(there.z, local)});
+  return fma(abs(normal.x), back.x, fma(abs(normal.y), back.y, abs(normal.z) * back.z));
+}
+
+/// Where the ray met the instance, in the instance's own space.
+__attribute__((noinline)) inline Vec3f hit_in_object(const SceneView& scene, const Hit& hit, Mask active) {
+  const Affine map = object_from_world(scene.instances, hit.instance, active);
+  return fma(map.vector(hit.ray.direction), hit.t, map.point(hit.ray.origin));
+}
+
+/// From the space of an instance to the world.
+__attribute__((noinline)) inline PlacedSurface surface_in_world(const SceneView& scene, UInt instance,
+                                                                const PlacedSurface& s, Mask active) {
+  const Affine to = world_from_object(scene.instances, instance, active);
+  const Affine from = object_from_world(scene.instances, instance, active);
+  PlacedSurface w;
+  w.position = to.point(s.position);
+  w.normal = normalize(from.transposed(s.normal));
+  w.shading = normalize(from.transposed(s.shading));
+  w.scale = rounding_scale(to, from, w.position, w.normal, s.scale);
+  w.uv = s.uv;
+  w.dp_du = to.vector(s.dp_du);
+  w.dp_dv = to.vector(s.dp_dv);
+  return w;
+}
+
+/// The point of the analytic shape `analytic` that is next to `p`.
+__attribute__((noinline)) inline PlacedSurface analytic_surface(const SceneView& scene, UInt analytic, const Vec3f& p,
+                                                                Mask active) {
+  constexpr std::uint32_t kFloats = sizeof(AnalyticRecord) / sizeof(float);
+  const UInt record = analytic * UInt(kFloats);
+  const Affine to = gather_affine(scene.analytics->place.world_from_local, record, active);
+  const Affine from = gather_affine(scene.analytics->place.local_from_world, record, active);
+  const auto* words = reinterpret_cast<const float*>(scene.analytics) + sizeof(Placement) / sizeof(float);
+  const UInt kinds = gather_uint(words, record, active);
+  const Mask flipped = active & (gather_uint(words + 1, record, active) != UInt(0u));
+
+  const Vec3f local_p = from.point(p);
+  LocalSurface local{};
+#define NORRSKEN_ANALYTIC(kind, Model)                                                             \
+  if (scene.analytic_kinds & (1u << static_cast<std::uint32_t>(AnalyticKind::kind))) {             \
+    const Mask of_kind = active & (kinds == UInt(static_cast<std::uint32_t>(AnalyticKind::kind))); \
+    if (any(of_kind)) local = select(of_kind, Model::surface_at(local_p), local);                  \
+  }
+#include "shape/list.def"
+#undef NORRSKEN_ANALYTIC
+
+  PlacedSurface s;
+  s.position = to.point(local.position);
+  s.normal = normalize(from.transposed(local.normal)) * select(flipped, Float(-1.0f), Float(1.0f));
+  s.shading = s.normal;
+  s.scale = rounding_scale(to, from, s.position, s.normal, Float(1.0f));
+  s.uv = local.uv;
+  s.dp_du = to.vector(local.dp_du);
+  s.dp_dv = to.vector(local.dp_dv);
+  return s;
+}
+
+}  // namespace norrsken::NORRSKEN_ISA
