@@ -1,0 +1,23 @@
+// Meshes to measure with: a displaced sphere that fits into the hexagon room.
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+
+namespace norrsken {
+
+struct SphereGrid {
+  std::uint32_t rows, columns;  ///< of quads; vertices at the seam are there twice
+  bool bare;                    ///< no normals, no texture coordinates
+
+  std::uint32_t vertex_count() const { return (rows + 1) * (columns + 1); }
+  std::uint32_t triangle_count() const { return 2 * rows * columns; }
+};
+
+/// About so many triangles, in quads about as wide as high at the equator.
+SphereGrid sphere_grid(std::uint32_t triangles, bool bare);
+
+void write_ply(const SphereGrid& grid, std::ostream& to);  ///< little-endian
+void write_obj(const SphereGrid& grid, std::ostream& to);
+
+}  // namespace norrsken
