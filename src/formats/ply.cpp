@@ -137,12 +137,10 @@ class BodyReader {
   }
 
   bool skip(const PlyElement& element) {
-    double ignored = 0;
     if (element.properties.empty()) return true;
     for (std::uint64_t row = 0; row < element.count; ++row) {
       for (const PlyProperty& property : element.properties) {
-        if (!(property.count_type ? skip_list(property) : input_.read(property.type, ignored)))
-          return ends_early(element, row);
+        if (!read_property(element, property, {}, row)) return ends_early(element, row);
       }
     }
     return true;
@@ -162,6 +160,14 @@ class BodyReader {
     if (column.full_scale > 0) value = linear_from_srgb(std::clamp(value / column.full_scale, 0.0, 1.0));
     result = static_cast<float>(value);
     return true;
+  }
+
+  // One property of one row, stored if somebody wants it; false at the end of the file.
+  bool read_property(const PlyElement& element, const PlyProperty& property, const Column& column, std::uint64_t row) {
+    if (property.count_type) return skip_list(property);
+    if (column.into != nullptr) return read_value(element, property, column, row, *column.into);
+    double ignored = 0;
+    return input_.read(property.type, ignored);
   }
 
   // Columns for attributes, which get `rows` values.
@@ -209,10 +215,7 @@ class BodyReader {
       for (std::size_t i = 0; i < columns.size(); ++i) {
         const PlyProperty& property = element.properties[i];
         Column& column = columns[i];
-        double ignored = 0;
-        const bool good = property.count_type      ? skip_list(property)
-                          : column.into != nullptr ? read_value(element, property, column, row, *column.into)
-                                                   : input_.read(property.type, ignored);
+        const bool good = read_property(element, property, column, row);
         if (complaints_.gave_up()) return false;
         if (!good) return ends_early(element, row);
         column.into += column.stride;
@@ -238,16 +241,13 @@ class BodyReader {
     add_attributes(element, true, 1, columns);
     const std::span attributes = std::span(mesh_.attributes).subspan(first_attribute);
     std::vector<std::vector<float>> values(attributes.size());
+    std::vector<bool> is_corners;
+    for (const PlyProperty& property : element.properties) is_corners.push_back(is_face_list(property));
     for (std::uint64_t row = 0; row < element.count; ++row) {
       const std::size_t triangles_before = mesh_.triangles.size();
       for (std::size_t i = 0; i < columns.size(); ++i) {
         const PlyProperty& property = element.properties[i];
-        double ignored = 0;
-        const bool good = is_face_list(property) ? read_face(property, row)
-                          : property.count_type  ? skip_list(property)
-                          : columns[i].into != nullptr
-                              ? read_value(element, property, columns[i], row, *columns[i].into)
-                              : input_.read(property.type, ignored);
+        const bool good = is_corners[i] ? read_face(property, row) : read_property(element, property, columns[i], row);
         if (complaints_.gave_up()) return false;
         if (!good) return ends_early(element, row);
       }

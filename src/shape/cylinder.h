@@ -1,11 +1,11 @@
 // Model       The cylinder x^2 + y^2 = 1, 0 <= z <= 1, open at both ends; its normals point away from the axis.
 // Parameters  none: the place has the radius and the length
 // Measure     uniform over the area
-// Source      intersection: the quadratic's discriminant as |d|^2 - (o x d)^2 in the plane, by Lagrange's identity, which
+// Source      Intersection: the quadratic's discriminant as |d|^2 - (o x d)^2 in the plane, by Lagrange's identity, which
 //             keeps what b^2 - 4ac cancels for far origins; the cross product by Kahan's difference of products
 //             (Jeannerod, Louvet, Muller, "Further analysis of Kahan's algorithm for the accurate computation of 2x2
-//             determinants", 2013, algorithm 1)
-//             parameterisation: Mitsuba 3, shape `cylinder`: u is the angle in turns, v goes along the axis
+//             determinants", 2013, algorithm 1).
+//             Parameterisation: Mitsuba 3, shape `cylinder`: u is the angle in turns, v goes along the axis
 // Departures  none
 #pragma once
 

@@ -1,8 +1,8 @@
 // Model       The disk x^2 + y^2 <= 1 of the plane z = 0, facing +z.
 // Parameters  none: the place says the rest
 // Measure     uniform over the area
-// Source      sampling: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", 1997
-//             parameterisation: Mitsuba 3, shape `disk`: u is the radius, v the angle in turns
+// Source      Sampling: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", 1997.
+//             Parameterisation: Mitsuba 3, shape `disk`: u is the radius, v the angle in turns
 // Departures  none. As in Mitsuba dp_dv has unit length: it is not multiplied with the circumference.
 #pragma once
 

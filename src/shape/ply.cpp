@@ -1,6 +1,11 @@
 // ply: a mesh of triangles from a Stanford PLY file.
 //
 // Parameters: those of all mesh files (shape/mesh_host.h); flip_tex_coords defaults to false, as in Mitsuba.
+//
+// ASCII and binary files of either byte order; faces of any number of corners. Other properties are attributes for
+// textures of type `mesh_attribute`: consecutive PREFIX_x _y _z, PREFIX_0 _1 _2, PREFIX_1 _2 _3, or the first of those
+// alone, of vertices are `vertex_PREFIX`, of faces `face_PREFIX`; PREFIX_r _g _b are `vertex_PREFIX_color`; r g b and red
+// green blue are `vertex_color`. Integers are stored colours: the type's greatest value is 1, and sRGB is decoded.
 #include "compile/plugins.h"
 #include "formats/mesh_readers.h"
 #include "shape/mesh_host.h"

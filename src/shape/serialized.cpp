@@ -2,7 +2,8 @@
 //
 // Parameters: those of all mesh files (shape/mesh_host.h) but flip_tex_coords, and
 //   shape_index  integer, 0 or more (default 0): which of the file's meshes
-// A mesh whose flags ask for face normals is flat whatever `face_normals` says.
+// A mesh whose flags ask for face normals is flat whatever `face_normals` says. Colours of vertices are the attribute
+// `vertex_color`.
 #include "compile/plugins.h"
 #include "formats/mesh_readers.h"
 #include "shape/mesh_host.h"
