@@ -164,6 +164,28 @@ TEST(CylinderKernel, IsOpenAtItsEnds) {
   EXPECT_FALSE(CylinderShape::intersect({0.0f, 0.0f, 2.0f}, {0.25f, 0.0f, -1.0f}, kFar).hit.v);
 }
 
+TEST(CylinderKernel, PointsOffTheSurfaceByAFewUlpsDoNotMeetIt) {
+  // What spawned rays rely on: 8 ulps of the radius keep rays outwards, even grazing ones, off the surface, and rays
+  // inwards from the wall that they start at.
+  constexpr double kOff = 8 * 0x1p-24;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int early = 0;
+  for (int i = 0; i < 400000; ++i) {
+    const double phi = std::numbers::pi * unit(random), z = 0.5 + 0.49 * unit(random);
+    const glm::dvec3 n(std::cos(phi), std::sin(phi), 0), tangent(-n.y, n.x, 0.1 * unit(random));
+    glm::dvec3 d(unit(random), unit(random), unit(random));
+    if (i % 2 == 0) d = tangent + 1e-3 * unit(random) * n;
+    if (glm::dot(d, n) < 0) d -= 2 * glm::dot(d, n) * n;
+    const glm::dvec3 foot = n + glm::dvec3(0, 0, z);
+    early += CylinderShape::intersect(to_lanes(foot + kOff * n), to_lanes(d), kFar).hit.v ? 1 : 0;
+    const double chord = 2 * glm::dot(d, n) / (d.x * d.x + d.y * d.y);
+    const LocalHit inside = CylinderShape::intersect(to_lanes(foot - kOff * n), to_lanes(-d), kFar);
+    early += inside.hit.v && inside.t.v < chord / 2 ? 1 : 0;
+  }
+  EXPECT_EQ(early, 0);
+}
+
 TEST(CylinderKernel, IsHitPreciselyFromAfar) {
   // 10,000 radii away the textbook's discriminant is off by whole radii.
   std::mt19937 random(4);
