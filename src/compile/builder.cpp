@@ -1,17 +1,17 @@
 #include "compile/builder.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "compile/plugins.h"
 #include "sampler/sampler_host.h"
+#include "scene/constant_spectrum.h"
 
 namespace norrsken {
 namespace {
@@ -24,13 +24,6 @@ constexpr std::size_t kMaxElements = std::size_t{1} << 29;
 template <class Container>
 std::uint64_t bytes_of(const Container& container) {
   return container.size() * sizeof(container[0]);
-}
-
-std::uint64_t physical_memory() {
-  const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGE_SIZE);
-  // Whoever cannot tell is taken to have enough.
-  if (pages <= 0 || page_bytes <= 0) return std::numeric_limits<std::uint64_t>::max();
-  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes);
 }
 
 /// Room for `count` more and something to spare, which costs nothing before it is touched: what comes behind a large
@@ -62,7 +55,7 @@ std::string film_memory_message(int width, int height, std::uint64_t memory) {
 void Builder::refuse_kinds_to_come(Parameters& parameters) {
   for (const Node::Child& child : parameters.node().children) {
     const std::string& kind = child.node->kind;
-    if (kind != "medium" && kind != "texture" && kind != "volume") continue;
+    if (kind != "medium" && kind != "volume" && (kind != "texture" || parameters.node().kind == "scene")) continue;
     complain_about_plugin(*child.node, {kind == "texture" ? "rgb, spectrum or float" : "a scene without " + kind},
                           diagnostics_);
     parameters.children(kind);  // said enough about those
@@ -90,12 +83,50 @@ Material Builder::bsdf(const Node& node) {
   return material;
 }
 
-ColorParameter Builder::color(Parameters& p, std::string_view name, glm::dvec3 fallback, double min, double max) {
-  return {p.color(name, fallback, min, max)};
+void add_to_uv(ParameterBlock& block, const glm::dmat4& transform) {
+  for (int row = 0; row < 2; ++row) {
+    for (const int column : {0, 1, 3}) block.add(transform[column][row]);
+  }
+}
+
+Texture Builder::texture(const Node& node) {
+  if (const auto known = textures_.find(&node); known != textures_.end()) return known->second;
+  Texture texture;
+  if (const auto* plugin = find_plugin(texture_plugins(), node, diagnostics_)) {
+    Parameters p = parameters(node);
+    texture = plugin->compile(p, *this);
+    p.finish();
+  }
+  textures_.emplace(&node, texture);
+  return texture;
+}
+
+TextureWord Builder::add_texture(TextureKind kind, const ParameterBlock& parameters) {
+  need_uv();
+  tables().texture_kinds |= 1u << static_cast<std::uint32_t>(kind);
+  return make_texture(kind, add_parameters(parameters.values()));
+}
+
+std::optional<Texture> Builder::texture_of(Parameters& p, std::string_view name, double min, double max) {
+  const Node::Child* child = p.texture(name);
+  if (!child) return std::nullopt;
+  const Texture found = texture(*child->node);
+  if (found.min < min || found.max > max)
+    p.error(name, fmt::format("'{}' has values from {:g} to {:g}", name, found.min, found.max),
+            fmt::format("a texture with values from {:g} to {:g}", min, max));
+  return found;
+}
+
+ColorParameter Builder::color(Parameters& p, std::string_view name, glm::dvec3 fallback, double min, double max,
+                              bool emission) {
+  if (const auto texture = texture_of(p, name, min, max)) return {texture->mean, texture->word};
+  return {p.color(name, fallback, min, max, emission)};
 }
 
 ScalarParameter Builder::scalar(Parameters& p, std::string_view name, double fallback, double min, double max,
                                 Ends ends) {
+  if (const auto texture = texture_of(p, name, min, max))
+    return {(texture->mean.x + texture->mean.y + texture->mean.z) / 3, texture->word};
   return {p.number(name, fallback, min, max, ends)};
 }
 
@@ -283,6 +314,7 @@ void Builder::compile_shape(const Node& node) {
   }
   std::optional<ShapeGeometry> geometry = plugin->compile(p, *this);
   if (geometry && geometry->analytic) complain_about_plugin(node, {"rectangle or a mesh"}, diagnostics_);
+  if (geometry) attributes_.check(node, geometry->mesh.attributes, diagnostics_);
   // An empty shape stands in for a broken one, so that its emitter's complaints are heard too.
   const std::uint32_t shape = add_shape(std::move(geometry).value_or(ShapeGeometry{}), material);
   if (emitter_child) compile_emitter(*emitter_child->node, shape);
@@ -307,6 +339,7 @@ std::uint32_t Builder::add_shape(ShapeGeometry geometry, Material material) {
     record.flip_normals = flip_normals;
   }
   record.smooth = !geometry.mesh.normals.empty();
+  record.has_texcoords = !geometry.mesh.texcoords.empty();
   if (!sphere) add_triangles(std::move(geometry.mesh), material, shape);
   record.primitive_count = static_cast<std::uint32_t>(surfaces.size()) - record.first_primitive;
   tables().shapes.push_back(record);
@@ -321,6 +354,8 @@ void Builder::add_triangles(MeshData mesh, Material material, std::uint32_t shap
     return;
   }
   append(std::move(mesh.positions), t.positions);
+  attributes_.add(shape, static_cast<std::uint32_t>(base), static_cast<std::uint32_t>(t.triangle_vertices.size() / 3),
+                  mesh.attributes);
   // Per-vertex arrays exist for all vertices as soon as one shape needs them.
   if (!t.normals.empty() || !mesh.normals.empty()) {
     t.normals.resize(3 * base);
@@ -418,6 +453,11 @@ LoadedScene Builder::build(const LoadOptions& options) {
                                        integrator_plugins(), scene_.info.integrator);
   compile_sensor(p, options);
   for (const Node::Child* child : p.children("bsdf")) bsdf(*child->node);
+  for (const char* kind : {"spectrum", "texture"}) {
+    for (const Node::Child* child : p.children(kind)) {
+      if (!is_constant_spectrum(*child->node)) texture(*child->node);
+    }
+  }
   const auto shapes = p.children("shape");
   if (shapes.empty()) diagnostics_.error(root.location, "the scene has no shape", "<shape type=\"...\">");
   for (const Node::Child* child : shapes) compile_shape(*child->node);
@@ -428,6 +468,7 @@ LoadedScene Builder::build(const LoadOptions& options) {
     diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
   }
   append_spheres();
+  attributes_.finish();
   bound_surfaces();
   choose_lights();
   summarise();

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -11,6 +12,8 @@
 
 #include "compile/analytic_shape.h"
 #include "compile/compile.h"
+#include "compile/images.h"
+#include "compile/mesh_attributes.h"
 #include "compile/plugin_table.h"
 #include "formats/mesh_data.h"
 #include "light/light_choice.h"
@@ -56,6 +59,14 @@ struct ScalarParameter {
   TextureWord texture = 0;
 };
 
+/// A texture, and what is known of its values, if anything. Word 0: none, after a complaint.
+struct Texture {
+  TextureWord word = 0;
+  glm::dvec3 mean{0.5};
+  double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
+  std::uint32_t width = 1, height = 1;  ///< in texels, for what has any
+};
+
 /// A model's parameters in the order in which its kernel's ParameterReader counts them.
 class ParameterBlock {
  public:
@@ -89,6 +100,9 @@ class ParameterBlock {
   std::vector<float> values_;
 };
 
+/// 6 floats: the map of texture coordinates that a transformation makes in x and y (see texture/texture.h).
+void add_to_uv(ParameterBlock& block, const glm::dmat4& transform);
+
 class Builder {
  public:
   Builder(const Description& description, const FileSystem& files, Diagnostics& diagnostics)
@@ -107,9 +121,16 @@ class Builder {
   Material bsdf(const Node& node);
   /// A colour, or a texture where a child node of that name stands; textures that tell their values are held against
   /// the range too.
-  ColorParameter color(Parameters& p, std::string_view name, glm::dvec3 fallback, double min, double max);
+  ColorParameter color(Parameters& p, std::string_view name, glm::dvec3 fallback, double min, double max,
+                       bool emission = false);
   ScalarParameter scalar(Parameters& p, std::string_view name, double fallback, double min, double max,
                          Ends ends = Ends::closed);
+  /// The texture of a `texture` node; one that several parameters refer to is compiled once.
+  Texture texture(const Node& node);
+  /// Stores a texture's parameters and returns the word that leads to them.
+  TextureWord add_texture(TextureKind kind, const ParameterBlock& parameters);
+  ImageStore& images() { return images_; }
+  MeshAttributes& attributes() { return attributes_; }
   /// Stores floats among the scene's parameters and returns their offset.
   std::uint32_t add_parameters(std::span<const float> values);
   /// Stores a model's parameters and returns the word that leads to them.
@@ -132,6 +153,8 @@ class Builder {
   Parameters parameters(const Node& node) { return {node, description_, files_, diagnostics_}; }
   /// Complains about media, textures and volumes by name; for nodes whose children's names mean nothing yet.
   void refuse_kinds_to_come(Parameters& parameters);
+  /// The texture of that name, if it has one, with a complaint if its values are out of range.
+  std::optional<Texture> texture_of(Parameters& p, std::string_view name, double min, double max);
   void compile_sensor(Parameters& scene, const LoadOptions& options);
   void override_samples_per_pixel(const LoadOptions& options);
   FilmSettings film(Parameters& sensor, const LoadOptions& options);
@@ -154,7 +177,10 @@ class Builder {
   const FileSystem& files_;
   Diagnostics& diagnostics_;
   LoadedScene scene_;
+  ImageStore images_{files_, diagnostics_, scene_.tables};
+  MeshAttributes attributes_{scene_.tables};
   std::map<const Node*, Material> materials_;
+  std::map<const Node*, Texture> textures_;
   std::optional<Material> default_material_;
   int bsdf_depth_ = 0;
   std::vector<LightPower> light_powers_;

@@ -36,9 +36,9 @@ TEST(Compile, RefusesWhatDoesNotBelongIntoAScene) {
   const std::string rest = kSensor + kShape + kEmitter;
   EXPECT_THAT(compile_elements(rest + R"(<film type="hdrfilm"/>)").messages(),
               ElementsAre("error: unused film 'hdrfilm' in scene "
-                          "[bsdf, emitter, integrator, sensor, shape]"));
-  EXPECT_THAT(compile_elements(rest + R"(<texture type="bitmap" id="t"/>)").messages(),
-              ElementsAre("error: texture 'bitmap' is not supported yet [rgb, spectrum or float]"));
+                          "[bsdf, emitter, integrator, sensor, shape, spectrum, texture]"));
+  EXPECT_THAT(compile_elements(rest + R"(<volume type="gridvolume" id="t"/>)").messages(),
+              ElementsAre("error: volume 'gridvolume' is not supported yet [a scene without volume]"));
   EXPECT_THAT(compile_elements(rest + R"(<integer name="width" value="4"/>)").messages(),
               ElementsAre("error: unused parameter 'width' of scene [no parameters]"));
 }

@@ -269,15 +269,15 @@ TEST(Messages, KindsToCome) {
   EXPECT_EQ(complaints(R"(  <shape type="sphere">
     <medium type="homogeneous"/>
   </shape>
-  <texture type="bitmap"/>)"),
+  <volume type="gridvolume"/>)"),
             R"(scene.xml:9:19: error: medium 'homogeneous' is not supported yet
     9 |     <medium type="homogeneous"/>
       |                   ^~~~~~~~~~~
 accepted: a scene without medium
-scene.xml:11:18: error: texture 'bitmap' is not supported yet
-   11 |   <texture type="bitmap"/>
-      |                  ^~~~~~
-accepted: rgb, spectrum or float
+scene.xml:11:17: error: volume 'gridvolume' is not supported yet
+   11 |   <volume type="gridvolume"/>
+      |                 ^~~~~~~~~~
+accepted: a scene without volume
 )");
 }
 

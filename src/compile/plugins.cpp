@@ -14,6 +14,15 @@ std::span<const Plugin<CompileBsdf>> bsdf_plugins() {
   return kTable;
 }
 
+std::span<const Plugin<CompileTexture>> texture_plugins() {
+  static constexpr Plugin<CompileTexture> kTable[] = {
+#define NORRSKEN_TEXTURE(kind, Model) {#kind, compile_texture_##kind},
+#include "texture/list.def"
+#undef NORRSKEN_TEXTURE
+  };
+  return kTable;
+}
+
 std::span<const Plugin<CompileShape>> shape_plugins() {
   static constexpr Plugin<CompileShape> kTable[] = {
 #define NORRSKEN_SHAPE(name) {#name, compile_shape_##name},

@@ -13,6 +13,7 @@
 namespace norrsken {
 
 using CompileBsdf = Material(Parameters&, Builder&);
+using CompileTexture = Texture(Parameters&, Builder&);
 /// World-space geometry; empty after a complaint.
 using CompileShape = std::optional<ShapeGeometry>(Parameters&, Builder&);
 /// Adds lights. `shape` is the index of the shape that the emitter stands in, or kNone.
@@ -29,6 +30,9 @@ using CompileIntegrator = IntegratorSettings(Parameters&);
 #define NORRSKEN_BSDF_ADAPTER(name) CompileBsdf compile_bsdf_##name;
 #include "bsdf/adapters.def"
 #undef NORRSKEN_BSDF_ADAPTER
+#define NORRSKEN_TEXTURE(kind, Model) CompileTexture compile_texture_##kind;
+#include "texture/list.def"
+#undef NORRSKEN_TEXTURE
 #define NORRSKEN_SHAPE(name) CompileShape compile_shape_##name;
 #include "shape/plugins.def"
 #undef NORRSKEN_SHAPE
@@ -52,6 +56,7 @@ using CompileIntegrator = IntegratorSettings(Parameters&);
 #undef NORRSKEN_INTEGRATOR
 
 std::span<const Plugin<CompileBsdf>> bsdf_plugins();
+std::span<const Plugin<CompileTexture>> texture_plugins();
 std::span<const Plugin<CompileShape>> shape_plugins();
 std::span<const Plugin<CompileEmitter>> emitter_plugins();
 std::span<const Plugin<CompileSensor>> sensor_plugins();

@@ -1,7 +1,9 @@
 // A model's parameters in lanes: values, or what their texture has at the place.
 #pragma once
 
+#include "texture/bitmap.h"
 #include "texture/checkerboard.h"
+#include "texture/mesh_attribute.h"
 #include "texture/texture.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -18,10 +20,6 @@ inline Vec3f evaluate_texture(const SceneView& scene, UInt words, const TextureP
 #include "texture/list.def"
 #undef NORRSKEN_TEXTURE
   return color;
-}
-
-NORRSKEN_INLINE Float luminance(const Vec3f& c) {
-  return fma(c.x, Float(0.212671f), fma(c.y, Float(0.715160f), c.z * Float(0.072169f)));
 }
 
 /// The parameters of the model that is stored at `offset`, for lanes of one kind of model. `k` counts floats in the

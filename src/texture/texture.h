@@ -20,6 +20,11 @@ struct TexturePoint {
   Vec2f barycentric;  ///< of triangles: weights of the second and third corner
 };
 
+/// Of linear sRGB; for the numbers that textures of three channels stand for.
+NORRSKEN_INLINE Float luminance(const Vec3f& c) {
+  return fma(c.x, Float(0.212671f), fma(c.y, Float(0.715160f), c.z * Float(0.072169f)));
+}
+
 /// The affine map of texture coordinates whose six floats (two rows) are stored at `offset`.
 NORRSKEN_INLINE Vec2f to_uv(const SceneView& scene, UInt offset, Vec2f uv, Mask active) {
   const auto element = [&](int k) { return gather(scene.parameters + k, offset, active); };

@@ -1,0 +1,117 @@
+#include "compile/images.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "color/srgb.h"
+#include "formats/texel_image.h"
+
+namespace norrsken {
+namespace {
+
+/// Signed 32-bit lanes count texels' floats.
+constexpr std::size_t kMaxTexels = std::size_t{1} << 31;
+
+/// Sums of the values that are added to it, channel by channel.
+struct Statistics {
+  glm::dvec3 sum{0};
+  double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
+
+  void add(int channel, double value, double times) {
+    sum[channel] += value * times;
+    min = std::min(min, value);
+    max = std::max(max, value);
+  }
+};
+
+}  // namespace
+
+std::optional<StoredImage> ImageStore::load(const std::string& path, bool raw, const SourceLocation& named_at) {
+  const auto key = std::pair(normal_path(path), raw);
+  if (const auto known = images_.find(key); known != images_.end()) return known->second;
+  return images_[key] = read(path, raw, named_at);
+}
+
+std::uint32_t ImageStore::byte_table(bool encoded) {
+  auto& table = byte_tables_[encoded];
+  if (!table) {
+    table = static_cast<std::uint32_t>(tables_.texels.size());
+    for (int byte = 0; byte < 256; ++byte) {
+      const double stored = byte / 255.0;
+      tables_.texels.push_back(static_cast<float>(encoded ? linear_from_srgb(stored) : stored));
+    }
+  }
+  return *table;
+}
+
+std::optional<StoredImage> ImageStore::read(const std::string& path, bool raw, const SourceLocation& named_at) {
+  const auto refuse = [&](const std::string& reason, const std::string& accepted) {
+    diagnostics_.error(named_at, fmt::format("cannot read the image {}: {}", quoted(path, 200), reason), accepted);
+    return std::nullopt;
+  };
+  std::string error;
+  const auto contents = files_.read(path, error);
+  if (!contents) return refuse(error, "an image file");
+  TexelImage image;
+  error = read_texels(path, *contents, physical_memory() / 4, image);
+  if (!error.empty()) return refuse(error, "a PNG, JPEG, BMP, TGA, EXR or HDR file");
+
+  auto& texels = tables_.texels;
+  const auto channels = static_cast<std::size_t>(image.channels);
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const bool packed = !image.bytes.empty();
+  const std::size_t needed = packed ? pixels + 512 : pixels * channels;
+  if (needed >= kMaxTexels - std::min(texels.size(), kMaxTexels))
+    return refuse("the scene's images are too many or too large", fmt::format("{} texels in all", kMaxTexels));
+
+  StoredImage stored;
+  stored.width = static_cast<std::uint32_t>(image.width);
+  stored.height = static_cast<std::uint32_t>(image.height);
+  const bool decode = image.is_encoded && !raw;
+  Statistics statistics;
+  if (packed) {
+    stored.table = byte_table(decode);
+    stored.texels = static_cast<std::uint32_t>(texels.size());
+    texels.reserve(texels.size() + pixels);
+    std::array<std::array<std::size_t, 256>, 3> histogram{};
+    for (std::size_t i = 0; i < image.bytes.size(); i += channels) {
+      std::uint32_t word = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint8_t byte = image.bytes[i + std::min(c, channels - 1)];
+        word |= std::uint32_t{byte} << (8 * c);
+        ++histogram[c][byte];
+      }
+      texels.push_back(std::bit_cast<float>(word));
+    }
+    for (int c = 0; c < 3; ++c) {
+      for (std::size_t byte = 0; byte < 256; ++byte) {
+        const std::size_t count = histogram[static_cast<std::size_t>(c)][byte];
+        if (count > 0) statistics.add(c, double{texels[stored.table + byte]}, static_cast<double>(count));
+      }
+    }
+  } else {
+    stored.stride = static_cast<std::uint32_t>(channels);
+    stored.texels = static_cast<std::uint32_t>(texels.size());
+    texels.reserve(texels.size() + image.values.size());
+    for (std::size_t i = 0; i < image.values.size(); ++i) {
+      const float value = decode ? linear_from_srgb(image.values[i]) : image.values[i];
+      if (!std::isfinite(value)) return refuse("it has values that are not finite", "finite values");
+      texels.push_back(value);
+      statistics.add(static_cast<int>(i % channels), double{value}, 1);
+    }
+  }
+  stored.mean = statistics.sum / static_cast<double>(pixels);
+  if (channels == 1 && !packed) stored.mean = glm::dvec3(stored.mean.x);
+  stored.min = statistics.min;
+  stored.max = statistics.max;
+  return stored;
+}
+
+}  // namespace norrsken

@@ -1,0 +1,47 @@
+// Model       Values that come with a mesh: interpolated between the corners of a triangle, or one for each triangle.
+// Parameters  name ("vertex_..." or "face_..."), scale (number, default 1)
+// Source      linear interpolation in barycentric coordinates
+// Departures  none
+#pragma once
+
+#include "texture/texture.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// Stored: scale, then the word of a table among the texels, with two words for each shape: where the value of the
+/// scene's vertex or triangle 0 would be, and the number of channels with 4 added for one value per triangle. 0: the
+/// shape has no such attribute.
+struct MeshAttribute {
+  static NORRSKEN_INLINE Vec3f evaluate(const SceneView& scene, UInt offset, const TexturePoint& point, Mask active) {
+    const Float scale = gather(scene.parameters, offset, active);
+    const UInt entry = gather_uint(scene.parameters + 1, offset, active) + point.shape + point.shape;
+    const UInt first = gather_uint(scene.texels, entry, active), layout = gather_uint(scene.texels + 1, entry, active);
+    const UInt channels = layout & UInt(3u);
+    active &= channels != UInt(0u);
+    const UInt step = select(channels == UInt(3u), UInt(1u), UInt(0u));
+    const auto value_of = [&](UInt element, Mask m) {
+      const UInt at = first + element * channels;
+      const auto value = [&](UInt k) { return gather(scene.texels, k, m); };
+      return Vec3f{value(at), value(at + step), value(at + step + step)};
+    };
+
+    const Mask per_face = active & ((layout & UInt(4u)) != UInt(0u)), per_vertex = active & !per_face;
+    Vec3f value{Float(0.0f), Float(0.0f), Float(0.0f)};
+    if (any(per_face)) value = value_of(point.primitive, per_face);
+    if (any(per_vertex)) {
+      const auto* vertices = reinterpret_cast<const float*>(scene.triangle_vertices);
+      const Vec2f b = point.barycentric;
+      const Float weights[3] = {Float(1.0f) - b.x - b.y, b.x, b.y};
+      Vec3f sum{Float(0.0f), Float(0.0f), Float(0.0f)};
+      for (int k = 0; k < 3; ++k) {
+        const UInt vertex = gather_uint(vertices + k, point.primitive * UInt(3u), per_vertex);
+        sum = fma(value_of(vertex, per_vertex), weights[k], sum);
+      }
+      value = select(per_vertex, sum, value);
+    }
+    return {zero_unless(active, value.x * scale), zero_unless(active, value.y * scale),
+            zero_unless(active, value.z * scale)};
+  }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA
