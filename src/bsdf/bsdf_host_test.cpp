@@ -8,6 +8,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 SurfaceRecord surface_of(const Compiled& compiled) { return compiled.tables().surfaces.at(0); }
 
@@ -47,33 +48,6 @@ TEST(DiffuseHost, RefusesUnknownParameters) {
   EXPECT_THAT(compile_bsdf(R"(<bsdf type="diffuse"><rgb name="reflectence" value="0.5"/></bsdf>)").messages(),
               ElementsAre("error: unused parameter 'reflectence' of bsdf 'diffuse', did you mean 'reflectance'? "
                           "[reflectance]"));
-}
-
-TEST(ConductorHost, OfNoMaterialIsAPerfectMirror) {
-  for (const char* inside : {"", R"(<string name="material" value="none"/>)"}) {
-    const Compiled c = compile_bsdf(std::string("<bsdf type=\"conductor\">") + inside + "</bsdf>");
-    ASSERT_THAT(c.messages(), IsEmpty());
-    EXPECT_EQ(material_kind(surface_of(c).material_front), BsdfKind::conductor);
-    EXPECT_EQ(surface_of(c).material_back, make_material(BsdfKind::absorb, 0));
-    EXPECT_THAT(parameters_of(c, surface_of(c).material_front), ElementsAre(1.0f, 1.0f, 1.0f));
-  }
-}
-
-TEST(ConductorHost, TakesASpecularReflectance) {
-  const Compiled c =
-      compile_bsdf(R"(<bsdf type="conductor"><rgb name="specular_reflectance" value="0.9, 0.8, 0.7"/></bsdf>)");
-  EXPECT_THAT(parameters_of(c, surface_of(c).material_front), ElementsAre(0.9f, 0.8f, 0.7f));
-  EXPECT_THAT(
-      compile_bsdf(R"(<bsdf type="conductor"><float name="specular_reflectance" value="2"/></bsdf>)").messages(),
-      ElementsAre("error: 'specular_reflectance' is (2, 2, 2) [components from 0 to 1]"));
-  const Compiled black =
-      compile_bsdf(R"(<bsdf type="conductor"><float name="specular_reflectance" value="0"/></bsdf>)");
-  EXPECT_EQ(surface_of(black).material_front, make_material(BsdfKind::absorb, 0));
-}
-
-TEST(ConductorHost, RefusesMetals) {
-  EXPECT_THAT(compile_bsdf(R"(<bsdf type="conductor"><string name="material" value="Au"/></bsdf>)").messages(),
-              ElementsAre("error: conductor material 'Au' is not supported yet [none]"));
 }
 
 TEST(TwosidedHost, GivesBothSidesTheOneBsdf) {
@@ -122,9 +96,9 @@ TEST(BsdfHost, AShapeWithoutBsdfIsDiffuseOfAHalf) {
 
 TEST(BsdfHost, TellsMisspeltFromMissing) {
   EXPECT_THAT(compile_bsdf(R"(<bsdf type="difuse"/>)").messages(),
-              ElementsAre("error: unknown bsdf 'difuse', did you mean 'diffuse'? [conductor, diffuse, twosided]"));
-  EXPECT_THAT(compile_bsdf(R"(<bsdf type="roughplastic"/>)").messages(),
-              ElementsAre("error: bsdf 'roughplastic' is not supported yet [conductor, diffuse, twosided]"));
+              ElementsAre(StartsWith("error: unknown bsdf 'difuse', did you mean 'diffuse'? [")));
+  EXPECT_THAT(compile_bsdf(R"(<bsdf type="hair"/>)").messages(),
+              ElementsAre(StartsWith("error: bsdf 'hair' is not supported yet [")));
 }
 
 }  // namespace

@@ -1,11 +1,14 @@
-// Model       Smooth conductor with material "none": a mirror that reflects everything, tinted by a factor.
-// Parameters  specular_reflectance (linear sRGB, 0 to 1, default 1)
+// Model       Smooth conductor: a mirror of metal.
+// Parameters  material (name, default "none": reflects everything); or eta, k (linear sRGB or texture, from 0, default 0
+//             and 1): complex index of refraction over that of the surroundings;
+//             specular_reflectance (linear sRGB or texture, 0 to 1, default 1): factor on what is reflected
 // Measure     delta
-// Source      the law of reflection; Fresnel's factor is 1 for material "none"
+// Source      Born and Wolf, "Principles of Optics", section 14.2
 // Departures  none
 #pragma once
 
 #include "bsdf/bsdf.h"
+#include "bsdf/fresnel.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -14,10 +17,10 @@ struct Conductor {
   static constexpr bool kUsesLobe = false;
 
   struct Parameters {
-    Vec3f specular_reflectance;
+    Vec3f specular_reflectance, eta, k;
   };
 
-  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0)}; }
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0), p.color(4), p.color(8)}; }
 
   static NORRSKEN_INLINE Vec3f evaluate(const Parameters&, const Vec3f&, const Vec3f&) {
     return {Float(0.0f), Float(0.0f), Float(0.0f)};
@@ -26,10 +29,13 @@ struct Conductor {
   static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return Float(0.0f); }
 
   static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float, Vec2f) {
-    return {{-wo.x, -wo.y, wo.z}, p.specular_reflectance, Float(0.0f), wo.z > Float(0.0f)};
+    const Vec3f fresnel = fresnel_conductor(wo.z, p.eta, p.k);
+    return {{-wo.x, -wo.y, wo.z}, p.specular_reflectance * fresnel, Float(0.0f), wo.z > Float(0.0f)};
   }
 
-  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.specular_reflectance; }
+  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) {
+    return p.specular_reflectance * fresnel_conductor(Float(1.0f), p.eta, p.k);
+  }
 };
 
 }  // namespace norrsken::NORRSKEN_ISA

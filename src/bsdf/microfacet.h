@@ -68,7 +68,7 @@ struct Microfacet {
   /// A normal as often as its facets are seen from `wo`; wo.z > 0.
   NORRSKEN_INLINE Vec3f sample_visible(const Vec3f& wo, Vec2f u) const {
     const Vec3f stretched{wo.x * alpha_u, wo.y * alpha_v, wo.z};
-    Vec3f m;
+    Vec3f m{Float(0.0f), Float(0.0f), Float(1.0f)};
     if (any(ggx)) m = sample_visible_ggx(stretched, u);
     if (any(!ggx)) m = select(ggx, m, sample_visible_beckmann(stretched, u));
     return normalize(Vec3f{m.x * alpha_u, m.y * alpha_v, max(m.z, Float(1e-7f))});

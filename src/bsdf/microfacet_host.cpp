@@ -25,22 +25,20 @@ Roughness read_roughness(Parameters& p, Builder& builder) {
   Roughness r;
   r.ggx = read_is_ggx(p);
   p.boolean("sample_visible", true);
+  const auto slope = [&](std::string_view name) { return builder.scalar(p, name, kDefaultAlpha, 0, kMaxAlpha); };
+  const ScalarParameter alpha = slope("alpha");
+  r.alpha_u = slope("alpha_u"), r.alpha_v = slope("alpha_v");
   const bool has_u = p.has("alpha_u"), has_v = p.has("alpha_v");
   if (!has_u && !has_v) {
-    r.alpha_u = r.alpha_v = builder.scalar(p, "alpha", kDefaultAlpha, 0, kMaxAlpha);
+    r.alpha_u = r.alpha_v = alpha;
     return r;
   }
-  if (p.has("alpha")) {
-    p.error("alpha", "'alpha' is given next to 'alpha_u' or 'alpha_v'", "alpha, or both of alpha_u and alpha_v");
-    builder.scalar(p, "alpha", kDefaultAlpha, 0, kMaxAlpha);
-  }
+  constexpr char kAccepted[] = "alpha, or both of alpha_u and alpha_v";
+  if (p.has("alpha")) p.error("alpha", "'alpha' is given next to 'alpha_u' or 'alpha_v'", kAccepted);
   if (has_u != has_v) {
-    p.error(has_u ? "alpha_u" : "alpha_v",
-            fmt::format("'{}' is given without '{}'", has_u ? "alpha_u" : "alpha_v", has_u ? "alpha_v" : "alpha_u"),
-            "alpha, or both of alpha_u and alpha_v");
+    const std::string_view given = has_u ? "alpha_u" : "alpha_v", missing = has_u ? "alpha_v" : "alpha_u";
+    p.error(given, fmt::format("'{}' is given without '{}'", given, missing), kAccepted);
   }
-  r.alpha_u = builder.scalar(p, "alpha_u", kDefaultAlpha, 0, kMaxAlpha);
-  r.alpha_v = builder.scalar(p, "alpha_v", kDefaultAlpha, 0, kMaxAlpha);
   builder.need_uv();  // the directions of u and v are those of the texture coordinates
   return r;
 }

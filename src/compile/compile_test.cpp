@@ -45,7 +45,8 @@ TEST(Compile, RefusesWhatDoesNotBelongIntoAScene) {
 
 TEST(Compile, BsdfsThatNobodyRefersToAreCheckedToo) {
   EXPECT_THAT(compile_elements(kSensor + kShape + kEmitter + R"(<bsdf type="mask" id="unused"/>)").messages(),
-              ElementsAre("error: bsdf 'mask' is not supported yet [conductor, diffuse, twosided]"));
+              ElementsAre("error: bsdf 'mask' is not supported yet [conductor, dielectric, diffuse, roughconductor, "
+                          "roughdielectric, thindielectric, twosided]"));
 }
 
 TEST(Compile, TellsAllThatIsWrongInOneRun) {

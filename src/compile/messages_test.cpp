@@ -28,18 +28,18 @@ TEST(Messages, UnknownPlugin) {
             R"(scene.xml:9:17: error: unknown bsdf 'difuse', did you mean 'diffuse'?
     9 |     <bsdf type="difuse"/>
       |                 ^~~~~~
-accepted: conductor, diffuse, twosided
+accepted: conductor, dielectric, diffuse, roughconductor, roughdielectric, thindielectric, twosided
 )");
 }
 
 TEST(Messages, PluginToCome) {
   EXPECT_EQ(complaints(R"(  <shape type="sphere">
-    <bsdf type="roughplastic"/>
+    <bsdf type="hair"/>
   </shape>)"),
-            R"(scene.xml:9:17: error: bsdf 'roughplastic' is not supported yet
-    9 |     <bsdf type="roughplastic"/>
-      |                 ^~~~~~~~~~~~
-accepted: conductor, diffuse, twosided
+            R"(scene.xml:9:17: error: bsdf 'hair' is not supported yet
+    9 |     <bsdf type="hair"/>
+      |                 ^~~~
+accepted: conductor, dielectric, diffuse, roughconductor, roughdielectric, thindielectric, twosided
 )");
 }
 

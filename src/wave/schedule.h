@@ -13,7 +13,11 @@
 
 #include "bsdf/absorb.h"
 #include "bsdf/conductor.h"
+#include "bsdf/dielectric.h"
 #include "bsdf/diffuse.h"
+#include "bsdf/roughconductor.h"
+#include "bsdf/roughdielectric.h"
+#include "bsdf/thindielectric.h"
 #include "wave/accumulate_film.h"
 #include "wave/generate_camera_rays.h"
 #include "wave/intersect_closest.h"

@@ -1,0 +1,46 @@
+// Model       Smooth dielectric: an interface that reflects and refracts, as glass and water do.
+// Parameters  int_ior, ext_ior (number greater than 0, or a material's name; defaults "bk7" and "air"): indices of
+//             refraction behind and before the surface;
+//             specular_reflectance, specular_transmittance (linear sRGB or texture, 0 to 1, default 1)
+// Measure     delta; either part is chosen with the probability of its share
+// Source      Born and Wolf, "Principles of Optics", section 1.5.2; radiance grows by eta^2 as it enters: Veach, "Robust
+//             Monte Carlo Methods for Light Transport Simulation", 1997, section 5.2
+// Departures  none
+#pragma once
+
+#include "bsdf/bsdf.h"
+#include "bsdf/fresnel.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+struct Dielectric {
+  static constexpr bool kDelta = true;
+  static constexpr bool kUsesLobe = true;
+
+  struct Parameters {
+    Vec3f specular_reflectance, specular_transmittance;
+    Float eta;  ///< of the other side over this side
+  };
+
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0), p.color(4), p.number(8)}; }
+
+  static NORRSKEN_INLINE Vec3f evaluate(const Parameters&, const Vec3f&, const Vec3f&) {
+    return {Float(0.0f), Float(0.0f), Float(0.0f)};
+  }
+
+  static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return Float(0.0f); }
+
+  static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float lobe, Vec2f) {
+    const FresnelDielectric f = fresnel_dielectric(wo.z, p.eta);
+    const Mask reflects = lobe < f.reflectance;
+    const Float inv_eta = Float(1.0f) / p.eta;
+    const Vec3f mirrored{-wo.x, -wo.y, wo.z}, refracted{-wo.x * inv_eta, -wo.y * inv_eta, -f.cos_t};
+    const Vec3f transmitted = p.specular_transmittance * (inv_eta * inv_eta);
+    return {select(reflects, mirrored, refracted), select(reflects, p.specular_reflectance, transmitted), Float(0.0f),
+            wo.z > Float(0.0f), select(reflects, Float(1.0f), p.eta)};
+  }
+
+  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.specular_transmittance; }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

@@ -1,0 +1,46 @@
+// Model       Thin sheet of a dielectric, such as a window pane: light goes straight on or is reflected, after any number
+//             of reflections inside.
+// Parameters  int_ior, ext_ior (number greater than 0, or a material's name; defaults "bk7" and "air"): indices of
+//             refraction of the sheet and around it;
+//             specular_reflectance, specular_transmittance (linear sRGB or texture, 0 to 1, default 1)
+// Measure     delta; either part is chosen with the probability of its share
+// Source      Stokes, "On the intensity of the light reflected from or transmitted through a pile of plates", 1862: of a
+//             plate whose faces reflect r, R = r + (1 - r)^2 r / (1 - r^2) = 2 r / (1 + r)
+// Departures  none
+#pragma once
+
+#include "bsdf/bsdf.h"
+#include "bsdf/fresnel.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+struct ThinDielectric {
+  static constexpr bool kDelta = true;
+  static constexpr bool kUsesLobe = true;
+
+  struct Parameters {
+    Vec3f specular_reflectance, specular_transmittance;
+    Float eta;  ///< of the sheet over its surroundings
+  };
+
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0), p.color(4), p.number(8)}; }
+
+  static NORRSKEN_INLINE Vec3f evaluate(const Parameters&, const Vec3f&, const Vec3f&) {
+    return {Float(0.0f), Float(0.0f), Float(0.0f)};
+  }
+
+  static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return Float(0.0f); }
+
+  static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float lobe, Vec2f) {
+    const Float r = fresnel_dielectric(wo.z, p.eta).reflectance;
+    const Mask reflects = lobe < (r + r) / (Float(1.0f) + r);
+    return {{-wo.x, -wo.y, select(reflects, wo.z, -wo.z)},
+            select(reflects, p.specular_reflectance, p.specular_transmittance),
+            Float(0.0f),
+            wo.z > Float(0.0f)};
+  }
+
+  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.specular_transmittance; }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA
