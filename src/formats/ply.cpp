@@ -188,6 +188,7 @@ class BodyReader {
   }
 
   bool read_vertices(const PlyElement& element) {
+    if (element.count == 0) return true;
     const std::size_t rows = rows_to_expect(element);
     std::vector<Column> columns(element.properties.size());
     const auto store = [&](auto& values, std::initializer_list<std::string_view> names, double limit) {
