@@ -10,6 +10,7 @@
 //   static Float pdf_sa(const Parameters&, wo, wi);
 //   static BsdfSample sample(const Parameters&, wo, Float lobe, Vec2f direction);
 //   static Vec3f albedo(const Parameters&);    for the feature layer
+//   static Float refracted_eta(const Parameters&);    only if evaluate refracts: index of refraction beyond over this side
 // Of a model with both, evaluate and pdf_sa leave the delta part out. wi.z < 0 is transmission.
 #pragma once
 

@@ -4,6 +4,8 @@
 //     static constexpr bool kUsesLens;  // sample() looks at `lens`
 //     // `px` and `py` in pixels from the top left corner of the whole film, `lens` in the unit square
 //     static CameraRay sample(const CameraRecord&, Float px, Float py, Vec2f lens);
+//     // where the camera sees a point through that place of the lens (src/camera/connect.h)
+//     static CameraConnection connect(const CameraRecord&, const Vec3f& point, Vec2f lens);
 //   };
 //
 // Measure: one ray per film position and lens position; every film position counts the same.

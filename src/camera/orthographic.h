@@ -7,6 +7,7 @@
 #pragma once
 
 #include "camera/camera.h"
+#include "camera/connect.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -15,6 +16,19 @@ struct Orthographic {
 
   static NORRSKEN_INLINE CameraRay sample(const CameraRecord& camera, Float px, Float py, Vec2f) {
     return {film_point(camera, px, py), broadcast(camera.forward)};
+  }
+
+  /// point = film_point(px, py) + forward t, solved for px, py and t: a transform may shear the film.
+  static NORRSKEN_INLINE CameraConnection connect(const CameraRecord& camera, const Vec3f& point, Vec2f) {
+    const Vec3f du = broadcast(camera.du), dv = broadcast(camera.dv), forward = broadcast(camera.forward);
+    const Vec3f film_normal = cross(du, dv), q = point - broadcast(camera.base);
+    const Float volume = dot(film_normal, forward);
+    const Float t = dot(q, film_normal) / volume;
+    // What a pixel covers, perpendicular to the rays, is the volume that it sweeps along a unit of them.
+    return {fma(forward, -t, point),
+            {dot(q, cross(dv, forward)) / volume, dot(q, cross(forward, du)) / volume},
+            Float(1.0f) / abs(volume),
+            between_clip_planes(camera, t + Float(camera.near_clip))};
   }
 };
 

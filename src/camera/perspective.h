@@ -7,6 +7,7 @@
 #pragma once
 
 #include "camera/camera.h"
+#include "camera/connect.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -15,6 +16,10 @@ struct Perspective {
 
   static NORRSKEN_INLINE CameraRay sample(const CameraRecord& camera, Float px, Float py, Vec2f) {
     return start_at_near_plane(camera, broadcast(camera.origin), normalize(film_point(camera, px, py)));
+  }
+
+  static NORRSKEN_INLINE CameraConnection connect(const CameraRecord& camera, const Vec3f& point, Vec2f) {
+    return connect_through(camera, {Float(0.0f), Float(0.0f), Float(0.0f)}, point);
   }
 };
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "camera/camera.h"
+#include "camera/connect.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -16,10 +17,19 @@ struct ThinLens {
   static constexpr bool kUsesLens = true;
 
   static NORRSKEN_INLINE CameraRay sample(const CameraRecord& camera, Float px, Float py, Vec2f lens) {
-    const Vec2f disk = warp_to_disk(lens);
-    const Vec3f on_lens = fma(broadcast(camera.lens_x), disk.x, broadcast(camera.lens_y) * disk.y);
+    const Vec3f on_lens = lens_point(camera, lens);
     const Vec3f direction = normalize(film_point(camera, px, py) - on_lens);
     return start_at_near_plane(camera, broadcast(camera.origin) + on_lens, direction);
+  }
+
+  static NORRSKEN_INLINE CameraConnection connect(const CameraRecord& camera, const Vec3f& point, Vec2f lens) {
+    return connect_through(camera, lens_point(camera, lens), point);
+  }
+
+ private:
+  static NORRSKEN_INLINE Vec3f lens_point(const CameraRecord& camera, Vec2f lens) {
+    const Vec2f disk = warp_to_disk(lens);
+    return fma(broadcast(camera.lens_x), disk.x, broadcast(camera.lens_y) * disk.y);
   }
 };
 

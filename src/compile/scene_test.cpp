@@ -325,7 +325,7 @@ TEST(SceneLoad, AnEmptyPluginNameIsNotNoName) {
   LoadOptions options;
   options.integrator = options.sampler = "";
   EXPECT_EQ(load_messages("hexagon_room", options),
-            "error: unknown integrator ''\naccepted: direct, path, whitted\n"
+            "error: unknown integrator ''\naccepted: direct, path, ptracer, whitted\n"
             "error: unknown sampler ''\naccepted: independent, sobol\n");
 }
 

@@ -49,6 +49,14 @@ FilmView Film::view() {
 }
 
 PixelEstimate Film::estimate(std::uint64_t pixel, int channel) const {
+  const PixelEstimate samples = estimate_samples(pixel, channel);
+  if (!splats_.exist()) return samples;
+  // Two independent estimates of two parts of the light.
+  const PixelEstimate splats = splats_.estimate(pixel, channel);
+  return {samples.mean + splats.mean, samples.variance + splats.variance, samples.known && splats.known};
+}
+
+PixelEstimate Film::estimate_samples(std::uint64_t pixel, int channel) const {
   const std::size_t pixels = counts_.size();
   const std::uint32_t n = counts_[pixel] & ~kSomeDropped;
   if (n == 0) return {};
@@ -63,23 +71,12 @@ PixelEstimate Film::estimate(std::uint64_t pixel, int channel) const {
     return {mean, std::max(variance, 0.0), true};
   }
 
-  const bool some_dropped = (counts_[pixel] & kSomeDropped) != 0;
-  // Independent scramblings as replicates: the spread of their means, each weighted with its share of the samples.
-  double sums[kReplicates], total = 0;
-  for (std::uint32_t r = 0; r < kReplicates; ++r) total += sums[r] = sum(3 * r + c);
-  const double mean = total / count;
-  double spread = 0;
-  std::uint32_t replicates = 0;
-  for (std::uint32_t r = 0; r < kReplicates; ++r) {
-    const double share = replicate_count(n, r);
-    if (share == 0) break;
-    const double deviation = sums[r] - share * mean;  // share * (mean of r - mean)
-    spread += deviation * deviation;
-    ++replicates;
-  }
-  if (replicates < 2 || some_dropped) return {mean, 0, false};
-  const double k = replicates;
-  return {mean, spread / (count * count) * k / (k - 1), true};
+  double sums[kReplicates], counts[kReplicates];
+  for (std::uint32_t r = 0; r < kReplicates; ++r) sums[r] = sum(3 * r + c), counts[r] = replicate_count(n, r);
+  PixelEstimate estimate = estimate_from_replicates(sums, counts);
+  // Which replicate lost how many is not known any more.
+  if ((counts_[pixel] & kSomeDropped) != 0) estimate.known = false;
+  return estimate;
 }
 
 FilmError Film::error(const FilmRegion& region) const {

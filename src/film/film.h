@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "base/aligned.h"
+#include "film/splats.h"
 #include "norrsken/image.h"
 #include "tables/film_view.h"
 #include "tables/scene_tables.h"
@@ -13,13 +15,6 @@ namespace norrsken {
 /// A rectangle of pixels.
 struct FilmRegion {
   std::uint32_t x0 = 0, y0 = 0, width = 0, height = 0;
-};
-
-/// Mean and variance of the mean of one pixel's channel.
-struct PixelEstimate {
-  double mean = 0;
-  double variance = 0;  ///< of the mean; meaningful if `known`
-  bool known = false;   ///< false while there are fewer than two independent estimates
 };
 
 /// Totals over pixels and channels, for the error of the whole image.
@@ -41,6 +36,10 @@ class Film {
   std::uint32_t height() const { return height_; }
   FilmView view();
 
+  /// What paths from the lights leave is part of the image from then on.
+  void add_splats(Splats splats) { splats_ = std::move(splats); }
+  Splats& splats() { return splats_; }
+
   PixelEstimate estimate(std::uint64_t pixel, int channel) const;
   FilmError error(const FilmRegion& region) const;
 
@@ -48,6 +47,8 @@ class Film {
   Image image(bool layers, std::uint32_t feature_samples) const;
 
  private:
+  PixelEstimate estimate_samples(std::uint64_t pixel, int channel) const;
+
   std::uint32_t width_, height_;
   bool weighted_;
   SamplerKind sampler_;
@@ -55,6 +56,7 @@ class Film {
   AlignedVector<double> sums_;
   AlignedVector<std::uint32_t> counts_;
   AlignedVector<float> features_;
+  Splats splats_;
 };
 
 }  // namespace norrsken

@@ -17,4 +17,7 @@ namespace norrsken {
 
 IntegratorSettings read_integrator(Parameters& p);
 
+/// max_depth, bounces and rr_depth alone.
+IntegratorSettings read_path_lengths(Parameters& p);
+
 }  // namespace norrsken

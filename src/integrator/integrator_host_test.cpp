@@ -78,11 +78,53 @@ TEST(IntegratorHost, RefuseWhatIsOutOfRange) {
               ElementsAre("error: 'max_depth' is a float [integer]"));
 }
 
+TEST(Ptracer, TakesItsParameters) {
+  const Compiled c = compile_integrator(integrator("ptracer", integer("max_depth", "7") + integer("rr_depth", "3") +
+                                                                  integer("samples_per_pass", "16") +
+                                                                  R"(<boolean name="hide_emitters" value="true"/>)"));
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const IntegratorSettings& settings = c.tables().integrator;
+  EXPECT_TRUE(settings.from_lights);
+  EXPECT_EQ(settings.max_depth, 7);
+  EXPECT_EQ(settings.rr_depth, 3);
+  EXPECT_TRUE(settings.hide_emitters);
+}
+
+TEST(Ptracer, DefaultsAreMitsubas) {
+  const Compiled c = compile_integrator(integrator("ptracer", ""));
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const IntegratorSettings& settings = c.tables().integrator;
+  EXPECT_TRUE(settings.from_lights);
+  EXPECT_EQ(settings.max_depth, -1);
+  EXPECT_EQ(settings.rr_depth, 5);
+  EXPECT_FALSE(settings.hide_emitters);
+  EXPECT_FALSE(compile_integrator(integrator("path", "")).tables().integrator.from_lights);
+}
+
+TEST(Ptracer, RefusesWhatIsOutOfRangeAndOtherParameters) {
+  const auto messages = [](const std::string& parameter) {
+    return compile_integrator(integrator("ptracer", parameter)).messages();
+  };
+  EXPECT_THAT(messages(integer("max_depth", "-2")),
+              ElementsAre("error: 'max_depth' is -2 [an integer from -1 to 2147483647]"));
+  EXPECT_THAT(messages(integer("rr_depth", "0")),
+              ElementsAre("error: 'rr_depth' is 0 [an integer from 1 to 2147483647]"));
+  EXPECT_THAT(messages(integer("samples_per_pass", "0")),
+              ElementsAre("error: 'samples_per_pass' is 0 [an integer from 1 to 2147483647]"));
+  EXPECT_THAT(messages(R"(<float name="samples_per_pass" value="4"/>)"),
+              ElementsAre("error: 'samples_per_pass' is a float [integer]"));
+  EXPECT_THAT(messages(R"(<string name="hide_emitters" value="yes"/>)"),
+              ElementsAre("error: 'hide_emitters' is a string [boolean]"));
+  EXPECT_THAT(messages(integer("emitter_samples", "4")),
+              ElementsAre("error: unused parameter 'emitter_samples' of integrator 'ptracer' "
+                          "[bounces, hide_emitters, max_depth, rr_depth, samples_per_pass]"));
+}
+
 TEST(IntegratorHost, RefusesOthers) {
   EXPECT_THAT(compile_integrator(integrator("volpath", "")).messages(),
-              ElementsAre("error: integrator 'volpath' is not supported yet [direct, path, whitted]"));
+              ElementsAre("error: integrator 'volpath' is not supported yet [direct, path, ptracer, whitted]"));
   EXPECT_THAT(compile_integrator(integrator("pth", "")).messages(),
-              ElementsAre("error: unknown integrator 'pth', did you mean 'path'? [direct, path, whitted]"));
+              ElementsAre("error: unknown integrator 'pth', did you mean 'path'? [direct, path, ptracer, whitted]"));
   EXPECT_THAT(compile_integrator(integrator("path", "") + integrator("path", "")).messages(),
               ElementsAre("error: scene has more than one integrator [one integrator]"));
 }
@@ -101,8 +143,9 @@ TEST(IntegratorHost, TheCommandLinesReplacementMustExist) {
   LoadOptions options;
   options.integrator = "wited";
   const Compiled c = compile_integrator(integrator("path", ""), options);
-  EXPECT_THAT(c.messages(),
-              ElementsAre("error: unknown integrator 'wited', did you mean 'whitted'? [direct, path, whitted]"));
+  EXPECT_THAT(
+      c.messages(),
+      ElementsAre("error: unknown integrator 'wited', did you mean 'whitted'? [direct, path, ptracer, whitted]"));
   EXPECT_EQ(c.diagnostics.all().at(0).location.line, 0);
 }
 

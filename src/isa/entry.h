@@ -22,6 +22,10 @@ struct KernelEntry {
   // Whole waves: what a worker calls.
   void (*trace_wave)(const SceneView&, const WaveJob&, WaveMemory&, WaveCounts&);
   void (*trace_features)(const SceneView&, const WaveJob&, WaveMemory&, WaveCounts&);
+  /// Paths from the lights: begins at hit number 1, returns 0 when the wave is done, else the hit number to go on with
+  /// when the memory's splats have been taken to the film.
+  std::uint32_t (*trace_particles)(const SceneView&, const WaveJob&, std::uint32_t hit_number, WaveMemory&,
+                                   WaveCounts&);
   void (*accumulate_film)(const WaveJob&, SamplerKind, const Queue& slots, const FilmView&, DroppedSamples&);
   void (*accumulate_features)(const WaveJob&, const Queue& slots, const FilmView&);
 

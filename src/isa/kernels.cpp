@@ -1,6 +1,7 @@
 // All kernels, compiled once per instruction set: the build sets NORRSKEN_ISA, NORRSKEN_LANES and the compiler's flags.
 #include "isa/entry.h"
 #include "wave/schedule.h"
+#include "wave/trace_particles.h"
 
 namespace norrsken::NORRSKEN_ISA {
 namespace {
@@ -65,14 +66,15 @@ void run_sample_2d(SamplerKind kind, std::uint64_t seed, std::uint32_t sample, s
 
 extern const KernelEntry kEntry;
 const KernelEntry kEntry = {
-    NORRSKEN_ISA_NAME,    kLanes,
-    trace_wave,           trace_features,
-    accumulate_film,      accumulate_features,
-    generate_camera_rays, intersect_closest,
-    intersect_emitters,   intersect_shadow,
-    shade_emission,       shade_miss,
-    run_shade_surface,    run_closest_rays,
-    run_occluded_rays,    run_sample_2d,
+    NORRSKEN_ISA_NAME,   kLanes,
+    trace_wave,          trace_features,
+    trace_particles,     accumulate_film,
+    accumulate_features, generate_camera_rays,
+    intersect_closest,   intersect_emitters,
+    intersect_shadow,    shade_emission,
+    shade_miss,          run_shade_surface,
+    run_closest_rays,    run_occluded_rays,
+    run_sample_2d,
 };
 
 }  // namespace norrsken::NORRSKEN_ISA

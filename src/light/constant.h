@@ -5,17 +5,9 @@
 // Departures  none
 #pragma once
 
-#include "light/light.h"
+#include "light/emit.h"
 
 namespace norrsken::NORRSKEN_ISA {
-
-/// A point of the unit sphere, uniformly.
-NORRSKEN_INLINE Vec3f warp_to_sphere(Vec2f u) {
-  const Float z = fnma(Float(2.0f), u.x, Float(1.0f));
-  const Float r = sqrt(max(fnma(z, z, Float(1.0f)), Float(0.0f)));
-  const SinCos phi = sin_cos_turns(u.y);
-  return {r * phi.cos, r * phi.sin, z};
-}
 
 struct ConstantEnvironment {
   static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f u,
@@ -26,6 +18,11 @@ struct ConstantEnvironment {
 
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light&, const Vec3f&, const Vec3f&, Float, Mask) {
     return Float(0.25f * kInvPi);
+  }
+
+  static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f position, Vec2f direction,
+                                         Mask active) {
+    return emit_from_afar<ConstantEnvironment>(scene, light, position, direction, active);
   }
 
   static NORRSKEN_INLINE Vec3f radiance(const SceneView&, const Light& light, const Vec3f&, Mask) {

@@ -5,7 +5,7 @@
 // Departures  none
 #pragma once
 
-#include "light/light.h"
+#include "light/emit.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -26,6 +26,15 @@ struct FlatAreaLight {
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light& light, const Vec3f&, const Vec3f& direction,
                                       Float distance, Mask) {
     return pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, -dot(direction, light.normal));
+  }
+
+  /// Uniform over the area, cosine-weighted over directions.
+  static NORRSKEN_INLINE EmittedRay emit(const SceneView&, const Light& light, Vec2f position, Vec2f direction,
+                                         Mask active) {
+    const Vec2f b = is_triangle ? warp_to_triangle(position) : position;
+    const Vec3f point = fma(light.edge1, b.x, fma(light.edge2, b.y, light.origin));
+    const Float scale = largest(light.origin) + largest(light.edge1) + largest(light.edge2);
+    return emit_from_surface(point, light.normal, scale, light.area, light.emission, direction, active);
   }
 };
 

@@ -7,6 +7,8 @@
 // and, if rays to nowhere see it,
 //   static Vec3f radiance(const SceneView&, const Light&, const Vec3f& direction, Mask active);
 // Such lights put their sampled point two scene radii away, behind everything.
+// For paths that start at the lights (src/light/emit.h):
+//   static EmittedRay emit(const SceneView&, const Light&, Vec2f position, Vec2f direction, Mask active);
 #pragma once
 
 #include "math/frame.h"

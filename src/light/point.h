@@ -5,7 +5,7 @@
 // Departures  none
 #pragma once
 
-#include "light/light.h"
+#include "light/emit.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -19,6 +19,11 @@ struct PointLight {
   /// A direction found by other means never meets a point.
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light&, const Vec3f&, const Vec3f&, Float, Mask) {
     return Float(0.0f);
+  }
+
+  static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f, Vec2f direction,
+                                         Mask active) {
+    return emit_from_point<PointLight>(scene, light, warp_to_sphere(direction), Float(0.25f * kInvPi), active);
   }
 };
 

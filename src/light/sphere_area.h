@@ -6,7 +6,7 @@
 // Departures  1 - cos of the cone is computed without cancellation, so small far spheres stay exact
 #pragma once
 
-#include "light/light.h"
+#include "light/emit.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -40,10 +40,7 @@ struct SphereAreaLight {
     const Vec3f entry = normalize(fma(direction, closest - half_chord, -axis));
 
     // A point of the area.
-    const Float z = fnma(Float(2.0f), u.x, Float(1.0f));
-    const Float r = sqrt(max(fnma(z, z, Float(1.0f)), Float(0.0f)));
-    const SinCos phi = sin_cos_turns(u.y);
-    const Vec3f anywhere{r * phi.cos, r * phi.sin, z};
+    const Vec3f anywhere = warp_to_sphere(u);
 
     const Vec3f normal = select(cone, entry, anywhere);
     const Vec3f point = fma(normal, radius, light.origin);
@@ -66,6 +63,16 @@ struct SphereAreaLight {
         pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, abs(dot(direction, normal)));
     const Mask cone = (!(light.edge1.y > Float(0.0f))) & (sin2 < Float(1.0f));
     return select(cone, cone_pdf_sa(one_minus_cos(sin2)), area_pdf);
+  }
+
+  /// Uniform over the area, cosine-weighted over directions.
+  static NORRSKEN_INLINE EmittedRay emit(const SceneView&, const Light& light, Vec2f position, Vec2f direction,
+                                         Mask active) {
+    const Float radius = light.edge1.x;
+    const Vec3f outward = warp_to_sphere(position);
+    const Vec3f normal = outward * select(light.edge1.y > Float(0.0f), Float(-1.0f), Float(1.0f));
+    const Vec3f point = fma(outward, radius, light.origin);
+    return emit_from_surface(point, normal, largest(point) + radius, light.area, light.emission, direction, active);
   }
 };
 

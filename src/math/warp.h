@@ -36,6 +36,14 @@ NORRSKEN_INLINE Vec3f warp_to_cosine_hemisphere(Vec2f u) {
 }
 NORRSKEN_INLINE Float cosine_hemisphere_pdf_sa(Float cos_theta) { return max(cos_theta, Float(0.0f)) * Float(kInvPi); }
 
+/// A point of the unit sphere, uniformly.
+NORRSKEN_INLINE Vec3f warp_to_sphere(Vec2f u) {
+  const Float z = fnma(Float(2.0f), u.x, Float(1.0f));
+  const Float r = sqrt(max(fnma(z, z, Float(1.0f)), Float(0.0f)));
+  const SinCos phi = sin_cos_turns(u.y);
+  return {r * phi.cos, r * phi.sin, z};
+}
+
 /// Barycentric (b1, b2) of a uniform point of a triangle, by folding the square's upper half onto the lower one's
 /// diagonals. Source: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
 NORRSKEN_INLINE Vec2f warp_to_triangle(Vec2f u) {

@@ -75,7 +75,8 @@ int crew_size(int asked) {
 }
 
 /// A tile's samples go to the film block by block. Waves are handed out in order, so the wave that a tile waits for is
-/// always under way, and waiting for it cannot lock up.
+/// always under way, and waiting for it cannot lock up. Paths from the lights land anywhere: for them the film is one
+/// tile, and every wave a block of it.
 struct Crew::Tile {
   std::mutex mutex;  // the film's pixels of this tile, and what follows
   std::condition_variable turn;
@@ -100,21 +101,25 @@ void Crew::run_features(std::uint32_t samples, const std::function<void()>& tick
 
 void Crew::run(std::uint64_t samples, const std::function<void()>& tick) {
   const std::uint32_t slots = slots_per_wave(scene_.integrator);
-  run_pass(Pass::radiance, WorkPlan(film_.width(), film_.height(), samples, slots), tick);
+  const Pass pass = scene_.integrator.from_lights ? Pass::particles : Pass::radiance;
+  run_pass(pass, WorkPlan(film_.width(), film_.height(), samples, slots), tick);
 }
 
 void Crew::run_pass(Pass pass, const WorkPlan& plan, const std::function<void()>& tick) {
-  tile_count_ = plan.tile_count();
+  tile_count_ = pass == Pass::particles ? 1 : plan.tile_count();
   tiles_ = std::make_unique<Tile[]>(tile_count_);
   for (std::uint64_t i = 0; i < tile_count_; ++i) {
     const WaveJob job = plan.wave(i);
     tiles_[i].region = {job.x0, job.y0, job.width, job.height};
   }
+  if (pass == Pass::particles) tiles_[0].region = {0, 0, film_.width(), film_.height()};
 
   const auto wanted =
       static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(threads_), plan.wave_count()));
   // All memory before the first thread: what runs in the threads cannot fail.
-  std::vector<WaveArena> arenas(wanted);
+  std::vector<WaveArena> arenas;
+  arenas.reserve(wanted);
+  for (std::size_t i = 0; i < wanted; ++i) arenas.emplace_back(kWaveSlots, pass == Pass::particles);
   std::atomic<std::uint64_t> next_wave{0};
   Gathering gathering(stop_);
   for (WaveArena& arena : arenas) {
@@ -133,9 +138,12 @@ void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& nex
   while (!cancelled_.load(std::memory_order_relaxed) && !stop_.load(std::memory_order_relaxed)) {
     const std::uint64_t wave = next_wave.fetch_add(1, std::memory_order_relaxed);
     if (wave >= plan.wave_count()) break;
-    const WaveJob job = plan.wave(wave);
+    if (pass == Pass::particles) {
+      trace_particles(plan, wave, memory, counts);
+      continue;
+    }
     const auto trace = pass == Pass::radiance ? kernels_.trace_wave : kernels_.trace_features;
-    trace(scene_, job, memory, counts);
+    trace(scene_, plan.wave(wave), memory, counts);
     add_to_film(pass, plan, wave, memory);
   }
   const std::lock_guard lock(mutex_);
@@ -160,6 +168,29 @@ void Crew::add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, Wave
   }
   if (pass == Pass::features) return;
   samples_done_.fetch_add(std::uint64_t{job.pixel_count()} * job.sample_count, std::memory_order_relaxed);
+  keep_dropped(dropped);
+}
+
+void Crew::trace_particles(const WorkPlan& plan, std::uint64_t wave, WaveMemory& memory, WaveCounts& counts) {
+  const WaveJob job = plan.wave(wave);
+  Tile& film = tiles_[0];
+  DroppedSamples dropped;
+  for (std::uint32_t hit_number = 1; hit_number != 0;) {
+    hit_number = kernels_.trace_particles(scene_, job, hit_number, memory, counts);
+    std::unique_lock lock(film.mutex);
+    film.turn.wait(lock, [&] { return film.next_block == wave; });
+    film_.splats().add(job, memory.splats, dropped);
+    if (hit_number != 0) continue;
+    kernels_.accumulate_film(job, scene_.sampler.kind, memory.slots, film_view_, dropped);
+    film_.splats().count_paths(job);
+    ++film.next_block;
+    film.turn.notify_all();
+  }
+  samples_done_.fetch_add(std::uint64_t{job.pixel_count()} * job.sample_count, std::memory_order_relaxed);
+  keep_dropped(dropped);
+}
+
+void Crew::keep_dropped(const DroppedSamples& dropped) {
   if (dropped.count == 0) return;
   const std::lock_guard lock(mutex_);
   for (std::uint64_t i = 0; i < dropped.count && i < DroppedSamples::kKept; ++i) {

@@ -39,11 +39,13 @@ class Crew {
 
  private:
   struct Tile;
-  enum class Pass { radiance, features };
+  enum class Pass { radiance, features, particles };
 
   void run_pass(Pass pass, const WorkPlan& plan, const std::function<void()>& tick);
   void work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave, WaveMemory& memory);
   void add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, WaveMemory& memory);
+  void trace_particles(const WorkPlan& plan, std::uint64_t wave, WaveMemory& memory, WaveCounts& counts);
+  void keep_dropped(const DroppedSamples& dropped);
 
   const SceneView& scene_;
   const KernelEntry& kernels_;

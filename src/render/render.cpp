@@ -35,6 +35,7 @@ class RenderSession final : public Render {
         film_(view_.film, view_.sampler.kind, options.features),
         features_(options.features) {
     view_.sampler.seed += options.seed;
+    if (view_.integrator.from_lights) film_.add_splats(Splats(view_.film, tables_.filter));
   }
 
   RenderStatistics run(const std::function<void(const RenderProgress&)>& on_progress) override {

@@ -12,10 +12,13 @@ namespace norrsken {
 /// last register of every queue does not matter. Measured, see docs/performance.md.
 inline constexpr std::uint32_t kWaveSlots = 1024;
 
+/// Splats that a wave's memory has room for, per slot: those of so many bounces at least.
+inline constexpr std::uint32_t kSplatsPerSlot = 4;
+
 class WaveArena {
  public:
-  /// Queues for waves of at most `slots` slots.
-  explicit WaveArena(std::uint32_t slots = kWaveSlots);
+  /// Queues for waves of at most `slots` slots; those of paths from the lights only if asked for.
+  explicit WaveArena(std::uint32_t slots = kWaveSlots, bool from_lights = false);
   WaveMemory& memory() { return memory_; }
 
  private:

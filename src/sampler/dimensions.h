@@ -12,10 +12,18 @@ inline constexpr std::uint32_t kLens = 2;  // 2: where on the lens
 inline constexpr std::uint32_t kTime = 4;  // 1
 }  // namespace camera_dimension
 
-/// Per surface hit; hit 1 is the camera ray's.
+/// In place of the camera's, for paths that start at a light.
+namespace emission_dimension {
+inline constexpr std::uint32_t kLight = 0;      // 2: which light
+inline constexpr std::uint32_t kPosition = 2;   // 2: where on it
+inline constexpr std::uint32_t kDirection = 4;  // 2
+}  // namespace emission_dimension
+
+/// Per surface hit; hit 1 is that of the path's first ray.
 namespace hit_dimension {
 inline constexpr std::uint32_t kLight = 0;          // 2: which light
 inline constexpr std::uint32_t kLightPosition = 2;  // 2: where on it
+inline constexpr std::uint32_t kLens = 2;           // 2: where on the lens; paths from lights sample no lights
 inline constexpr std::uint32_t kBsdfLobe = 4;       // 1: which part of the BSDF
 inline constexpr std::uint32_t kBsdfDirection = 5;  // 2
 inline constexpr std::uint32_t kRoulette = 7;       // 1

@@ -200,6 +200,7 @@ struct IntegratorSettings {
   int emitter_samples = 1;      ///< shadow rays per hit
   bool diffuse_bounces = true;  ///< false (whitted): only delta scattering is followed, light sampling alone
   bool hide_emitters = false;
+  bool from_lights = false;  ///< ptracer: paths start at the lights, and every surface they hit is shown to the camera
 };
 
 /// The arrays. Triangle i has corners positions[3 * triangle_vertices[3 * i + k] ...].

@@ -80,6 +80,8 @@ struct WaveMemory {
   Queue light_hits;         ///< HitField
   Queue misses;             ///< RayField; only filled if the scene has an environment
   Queue shadow_rays;        ///< ShadowField
+  Queue connections;        ///< ConnectionField; this and the next only for paths from the lights
+  Queue splats;             ///< SplatField, several bounces of a wave
 };
 
 /// Fields of the records, by number. src/wave/records.h has the lane types that go in and out.
@@ -137,6 +139,18 @@ enum ShadowField : std::uint32_t {
   kShadowBlue,
   kShadowSlot,
   kShadowFieldCount
+};
+/// A connection is a shadow ray to the camera and where on the film it arrives.
+enum ConnectionField : std::uint32_t { kConnectionFilmX = kShadowFieldCount, kConnectionFilmY, kConnectionFieldCount };
+/// What a path from a light leaves on the film: position in pixels, and radiance times the film's pixels per path.
+enum SplatField : std::uint32_t {
+  kSplatFilmX,
+  kSplatFilmY,
+  kSplatRed,
+  kSplatGreen,
+  kSplatBlue,
+  kSplatSlot,
+  kSplatFieldCount
 };
 
 /// Counted by a wave.

@@ -23,7 +23,11 @@ Scene load(const std::string& path_or_name, const LoadOptions& options) {
 }
 
 Scene load_test_scene(const std::string& file, const SceneParameters& parameters) {
-  return load(NORRSKEN_TEST_SCENES "/" + file, {.parameters = parameters});
+  return load_test_scene_with(file, {.parameters = parameters});
+}
+
+Scene load_test_scene_with(const std::string& file, const LoadOptions& options) {
+  return load(NORRSKEN_TEST_SCENES "/" + file, options);
 }
 
 Image render_image(const Scene& scene, RenderOptions options, bool layers) {

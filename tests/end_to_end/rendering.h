@@ -20,6 +20,7 @@ inline constexpr int kThreads = 2;
 Scene load(const std::string& path_or_name, const LoadOptions& options = {});
 /// A file of tests/scenes.
 Scene load_test_scene(const std::string& file, const SceneParameters& parameters = {});
+Scene load_test_scene_with(const std::string& file, const LoadOptions& options);
 
 /// Renders to the end; an instruction set that is left to choose is the environment's NORRSKEN_TEST_ISA if that is
 /// given. Throws std::runtime_error with the complaints if there are any, if a sample was dropped, or if another

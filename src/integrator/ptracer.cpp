@@ -1,0 +1,28 @@
+// ptracer: light tracing. Paths start at the lights, and every surface that they meet is connected to the camera: what
+// path finds by chance, such as the light of a small lamp through glass, is found with ease, and the other way round.
+// Both have the same image in the limit, except that mirrors and smooth glass before the camera stay black: no path
+// from a light can be made to reach the camera by way of them.
+//
+// Parameters
+//   max_depth         integer (default -1): 1 shows emitters only, 2 adds direct light, -1 has no limit
+//   bounces           integer, in place of `max_depth`: one less than that
+//   rr_depth          integer, from 1 (default 5): the depth from which Russian roulette ends paths
+//   hide_emitters     boolean (default false): the camera does not see the emitters themselves
+//   samples_per_pass  integer, from 1: taken and of no effect, for memory does not depend on the number of samples
+// Departures: emitters that the camera sees are sampled by its own rays, which leaves no noise in them.
+#include <limits>
+
+#include "compile/plugins.h"
+#include "integrator/integrator_host.h"
+
+namespace norrsken {
+
+IntegratorSettings compile_integrator_ptracer(Parameters& p) {
+  IntegratorSettings settings = read_path_lengths(p);
+  settings.hide_emitters = p.boolean("hide_emitters", false);
+  p.integer("samples_per_pass", 1, 1, std::numeric_limits<int>::max());
+  settings.from_lights = true;
+  return settings;
+}
+
+}  // namespace norrsken

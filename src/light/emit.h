@@ -1,0 +1,49 @@
+// What lights give to the paths that start at them.
+#pragma once
+
+#include "light/light.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// A ray from a light. `weight` is its radiance times the cosine there over the density of position and direction, or
+/// whatever becomes of that where they are deltas: flux, if all rays were like this one.
+struct EmittedRay {
+  Vec3f origin;  ///< moved off the light by the rounding bound
+  Vec3f direction;
+  Vec3f weight;
+  Mask valid;
+};
+
+/// Of a light on a surface: cosine-weighted from a point that is uniform over `area`.
+NORRSKEN_INLINE EmittedRay emit_from_surface(const Vec3f& point, const Vec3f& normal, Float rounding_scale, Float area,
+                                             const Vec3f& radiance, Vec2f direction, Mask active) {
+  return {fma(normal, rounding_scale * Float(kOffsetUlps), point),
+          make_frame(normal).to_world(warp_to_cosine_hemisphere(direction)), radiance * (area * Float(kPi)), active};
+}
+
+/// Of a point that shines into `direction`, which was found with `pdf_sa`: what `sample` says of a place there.
+template <class Model>
+NORRSKEN_INLINE EmittedRay emit_from_point(const SceneView& scene, const Light& light, const Vec3f& direction,
+                                           Float pdf_sa, Mask active) {
+  // So far away that the place is told as precisely as the direction.
+  const Float distance = largest(light.origin) + Float(1.0f);
+  const LightSample seen =
+      Model::sample(scene, light, fma(direction, distance, light.origin), {Float(0.0f), Float(0.0f)}, active);
+  return {light.origin, direction, seen.radiance * (distance * distance / pdf_sa), seen.valid};
+}
+
+/// Of a light infinitely far away: into the opposite of a direction that `sample` finds, from a uniform point of a disk
+/// perpendicular to it that touches the sphere around the scene and is as large.
+template <class Model>
+NORRSKEN_INLINE EmittedRay emit_from_afar(const SceneView& scene, const Light& light, Vec2f position, Vec2f direction,
+                                          Mask active) {
+  const Vec3f center = broadcast(scene.center);
+  const LightSample seen = Model::sample(scene, light, center, direction, active);
+  const Vec3f to_light = normalize(seen.point - center);
+  const Vec2f disk = warp_to_disk(position);
+  const Vec3f offset = make_frame(to_light).to_world({disk.x, disk.y, Float(1.0f)});
+  const Float area(kPi * scene.radius * scene.radius);
+  return {fma(offset, Float(scene.radius), center), -to_light, seen.radiance * (area / seen.pdf_sa), seen.valid};
+}
+
+}  // namespace norrsken::NORRSKEN_ISA

@@ -1,0 +1,49 @@
+// Stage: CONNECTIONS -> SPLATS of those that reach the camera.
+#pragma once
+
+#include "accel/intersect.h"
+#include "math/warp.h"
+#include "wave/records.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// A shadow ray to the camera, and where on the film it arrives.
+struct Connection {
+  ShadowRay ray;
+  Vec2f film;
+};
+
+NORRSKEN_INLINE Connection load_connection(const Queue& q, std::uint32_t i) {
+  return {load_shadow_ray(q, i), {load(q.field(kConnectionFilmX) + i), load(q.field(kConnectionFilmY) + i)}};
+}
+NORRSKEN_INLINE void push(Queue& q, const Connection& connection, Mask m) {
+  const Compaction c = make_compaction(m);
+  compress_store(q.field(kConnectionFilmX) + q.count, connection.film.x, c);
+  compress_store(q.field(kConnectionFilmY) + q.count, connection.film.y, c);
+  push(q, connection.ray, m);
+}
+
+/// Unlike a light, the camera need not be where the scene is: walls that cannot come between two points of the scene
+/// (docs/pipeline.md) can hide it from the camera.
+NORRSKEN_INLINE Mask hidden_from_camera(const SceneView& scene, const ShadowRay& ray, Mask active) {
+  if (scene.accel.kind != AccelKind::planes) return occluded_lanes(scene, ray.origin, ray.direction, ray.t_max, active);
+  return active & (intersect_closest_lanes(scene, false, ray.origin, ray.direction, active).t < ray.t_max);
+}
+
+inline void intersect_connections(const SceneView& scene, const Queue& connections, Queue& splats) {
+  for (std::uint32_t i = 0; i < connections.count; i += kLanes) {
+    const Mask active = first_lanes(connections.count - i);
+    const Connection connection = load_connection(connections, i);
+    const ShadowRay& ray = connection.ray;
+    const Mask visible = active & !hidden_from_camera(scene, ray, active);
+    if (none(visible)) continue;
+    const Compaction c = make_compaction(visible);
+    compress_store(splats.field(kSplatFilmX) + splats.count, connection.film.x, c);
+    compress_store(splats.field(kSplatFilmY) + splats.count, connection.film.y, c);
+    compress_store3(splats, kSplatRed, splats.count, ray.contribution, c);
+    compress_store(splats.field(kSplatSlot) + splats.count, ray.slot, c);
+    splats.count += c.count;
+  }
+}
+
+}  // namespace norrsken::NORRSKEN_ISA
