@@ -32,6 +32,23 @@ NORRSKEN_INLINE EmittedRay emit_from_point(const SceneView& scene, const Light& 
   return {light.origin, direction, seen.radiance * (distance * distance / pdf_sa), seen.valid};
 }
 
+/// The same of a point with axes of its own, which are the rows of what takes directions of the world there (edge1,
+/// edge2, normal); `local`, of any length, and the density of its direction are in that space.
+template <class Model>
+NORRSKEN_INLINE EmittedRay emit_from_axes(const SceneView& scene, const Light& light, const Vec3f& local,
+                                          Float local_pdf_sa, Mask active) {
+  const Vec3f x = cross(light.edge2, light.normal), y = cross(light.normal, light.edge1),
+              z = cross(light.edge1, light.edge2);
+  const Float determinant = dot(light.normal, z);
+  const Vec3f along = fma(x, local.x, fma(y, local.y, z * local.z)) * copysign(Float(1.0f), determinant);
+  const Vec3f direction = normalize(along);
+  const Vec3f back{dot(light.edge1, direction), dot(light.edge2, direction), dot(light.normal, direction)};
+  const Float length2 = dot(back, back);
+  // The solid angle there of a unit of solid angle in the world.
+  const Float jacobian = abs(determinant) / (length2 * sqrt(length2));
+  return emit_from_point<Model>(scene, light, direction, local_pdf_sa * jacobian, active);
+}
+
 /// Of a light infinitely far away: into the opposite of a direction that `sample` finds, from a uniform point of a disk
 /// perpendicular to it that touches the sphere around the scene and is as large.
 template <class Model>
