@@ -35,7 +35,9 @@ struct SceneInfo {
   };
   std::vector<Item> items;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< the `$parameters` in use and their values
-  std::uint64_t triangles = 0, spheres = 0, lights = 0;
+  /// Surfaces, those of groups counted once, whatever their number of instances.
+  std::uint64_t triangles = 0, spheres = 0, other_shapes = 0;
+  std::uint64_t instances = 0, lights = 0;
   double bounds_min[3] = {}, bounds_max[3] = {};
   int width = 0, height = 0, samples_per_pixel = 0, max_depth = 0, rr_depth = 0, emitter_samples = 0;
   std::string integrator, sampler, accelerator;

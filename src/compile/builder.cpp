@@ -18,29 +18,10 @@ namespace {
 
 /// Adapters within adapters: far more than any scene needs, far fewer than the stack holds.
 constexpr int kMaxBsdfDepth = 64;
-/// Three times an index must fit the 32-bit lanes that gather.
-constexpr std::size_t kMaxElements = std::size_t{1} << 29;
 
 template <class Container>
 std::uint64_t bytes_of(const Container& container) {
   return container.size() * sizeof(container[0]);
-}
-
-/// Room for `count` more and something to spare, which costs nothing before it is touched: what comes behind a large
-/// mesh must not make it move, and many small ones must not move what is there each time.
-template <class T>
-void make_room(std::size_t count, std::vector<T>& values) {
-  if (values.capacity() - values.size() < count)
-    values.reserve(std::max(values.size() + count + count / 8, values.size() + values.size() / 2));
-}
-
-/// Copies `from` behind `to` and frees it.
-template <class T, std::size_t N>
-void append(std::vector<std::array<T, N>>&& from, std::vector<T>& to) {
-  const std::vector<std::array<T, N>> source = std::move(from);
-  if (source.empty()) return;
-  make_room(N * source.size(), to);
-  to.insert(to.end(), source.front().data(), source.front().data() + N * source.size());
 }
 
 }  // namespace
@@ -158,12 +139,6 @@ void Builder::add_environment(const Node& node, const LightRecord& light, const 
     return;
   }
   tables().environment = add_light(light, power);
-}
-
-std::span<SurfaceRecord> Builder::surfaces_of(std::uint32_t shape) {
-  const ShapeRecord& record = tables().shapes[shape];
-  auto& surfaces = is_sphere(shape) ? spheres_ : tables().surfaces;
-  return std::span(surfaces).subspan(record.first_primitive, record.primitive_count);
 }
 
 FilterRecord Builder::rfilter(Parameters& film) {
@@ -296,129 +271,50 @@ void Builder::compile_emitter(const Node& node, std::uint32_t shape) {
   p.finish();
 }
 
+Material Builder::material_of(Parameters& shape) {
+  if (const Node::Child* child = shape.child("bsdf")) return bsdf(*child->node);
+  // Mitsuba's material for shapes that name none.
+  if (!default_material_)
+    default_material_ =
+        Material{.front = add_material(BsdfKind::diffuse, ParameterBlock().add(ColorParameter{glm::dvec3(0.5)}))};
+  return *default_material_;
+}
+
 void Builder::compile_shape(const Node& node) {
   const auto* plugin = find_plugin(shape_plugins(), node, diagnostics_);
   if (!plugin) return;
   Parameters p = parameters(node);
-  const Node::Child* bsdf_child = p.child("bsdf");
-  const Node::Child* emitter_child = p.child("emitter");
-  Material material;
-  if (bsdf_child) {
-    material = bsdf(*bsdf_child->node);
-  } else {
-    // Mitsuba's material for shapes that name none.
-    if (!default_material_)
-      default_material_ =
-          Material{.front = add_material(BsdfKind::diffuse, ParameterBlock().add(ColorParameter{glm::dvec3(0.5)}))};
-    material = *default_material_;
-  }
-  std::optional<ShapeGeometry> geometry = plugin->compile(p, *this);
-  if (geometry && geometry->analytic) complain_about_plugin(node, {"rectangle or a mesh"}, diagnostics_);
-  if (geometry) attributes_.check(node, geometry->mesh.attributes, diagnostics_);
   // An empty shape stands in for a broken one, so that its emitter's complaints are heard too.
-  const std::uint32_t shape = add_shape(std::move(geometry).value_or(ShapeGeometry{}), material);
-  if (emitter_child) compile_emitter(*emitter_child->node, shape);
+  ShapeGeometry geometry = plugin->compile(p, *this).value_or(ShapeGeometry{});
+  if (!geometry.of_shapes) {
+    const Material material = material_of(p);
+    const Node::Child* emitter = p.child("emitter");
+    attributes_.check(node, geometry.mesh.attributes, diagnostics_);
+    const std::vector<MeshAttribute> attributes = std::move(geometry.mesh.attributes);
+    const auto first_vertex = static_cast<std::uint32_t>(tables().positions.size() / 3);
+    const std::uint32_t first_triangle = tables().triangle_count();
+    const std::uint32_t shape = geometry_.add(std::move(geometry), material);
+    attributes_.add(shape, first_vertex, first_triangle, attributes);
+    if (emitter && geometry_.in_group()) {
+      diagnostics_.error(emitter->location, "an emitter stands inside a shapegroup, whose instances cannot shine",
+                         "emitters on shapes of the scene itself");
+    } else if (emitter) {
+      compile_emitter(*emitter->node, shape);
+    }
+  }
   refuse_kinds_to_come(p);
   p.finish();
 }
 
-std::uint32_t Builder::add_shape(ShapeGeometry geometry, Material material) {
-  const auto shape = static_cast<std::uint32_t>(tables().shapes.size());
-  const bool sphere = !geometry.spheres.empty();
-  auto& surfaces = sphere ? spheres_ : tables().surfaces;
-  is_sphere_.push_back(sphere);
-  ShapeRecord record;
-  record.first_primitive = static_cast<std::uint32_t>(surfaces.size());
-  for (const auto& [center, radius, flip_normals] : geometry.spheres) {
-    surfaces.push_back({{static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z),
-                         static_cast<float>(radius)},
-                        material.front,
-                        material.back,
-                        kNone,
-                        shape});
-    record.flip_normals = flip_normals;
-  }
-  record.smooth = !geometry.mesh.normals.empty();
-  record.has_texcoords = !geometry.mesh.texcoords.empty();
-  if (!sphere) add_triangles(std::move(geometry.mesh), material, shape);
-  record.primitive_count = static_cast<std::uint32_t>(surfaces.size()) - record.first_primitive;
-  tables().shapes.push_back(record);
-  return shape;
-}
-
-void Builder::add_triangles(MeshData mesh, Material material, std::uint32_t shape) {
-  SceneTables& t = tables();
-  const std::size_t base = t.positions.size() / 3;
-  if (base + mesh.positions.size() > kMaxElements || t.surfaces.size() + mesh.triangles.size() > kMaxElements) {
-    diagnostics_.error({}, "the scene has too many triangles", fmt::format("{} vertices and triangles", kMaxElements));
-    return;
-  }
-  append(std::move(mesh.positions), t.positions);
-  attributes_.add(shape, static_cast<std::uint32_t>(base), static_cast<std::uint32_t>(t.triangle_vertices.size() / 3),
-                  mesh.attributes);
-  // Per-vertex arrays exist for all vertices as soon as one shape needs them.
-  if (!t.normals.empty() || !mesh.normals.empty()) {
-    t.normals.resize(3 * base);
-    append(std::move(mesh.normals), t.normals);
-    t.normals.resize(t.positions.size());
-  }
-  if (!t.texcoords.empty() || !mesh.texcoords.empty()) {
-    t.texcoords.resize(2 * base);
-    append(std::move(mesh.texcoords), t.texcoords);
-    t.texcoords.resize(t.positions.size() / 3 * 2);
-  }
-  const std::size_t first = t.triangle_vertices.size();
-  append(std::move(mesh.triangles), t.triangle_vertices);
-  for (std::size_t i = first; i < t.triangle_vertices.size(); ++i)
-    t.triangle_vertices[i] += static_cast<std::uint32_t>(base);
-
-  const auto corner = [&](std::size_t i) {
-    const float* p = t.positions.data() + std::size_t{3} * t.triangle_vertices[i];
-    return glm::dvec3(p[0], p[1], p[2]);
-  };
-  make_room((t.triangle_vertices.size() - first) / 3, t.surfaces);
-  for (std::size_t i = first; i < t.triangle_vertices.size(); i += 3) {
-    const glm::dvec3 a = corner(i);
-    const glm::dvec3 n = glm::normalize(glm::cross(corner(i + 1) - a, corner(i + 2) - a));
-    t.surfaces.push_back({{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z),
-                           static_cast<float>(glm::dot(n, a))},
-                          material.front,
-                          material.back,
-                          kNone,
-                          shape});
-  }
-}
-
-void Builder::append_spheres() {
-  SceneTables& t = tables();
-  for (std::uint32_t shape = 0; shape < t.shapes.size(); ++shape) {
-    if (is_sphere(shape)) t.shapes[shape].first_primitive += t.triangle_count();
-  }
-  t.surfaces.insert(t.surfaces.end(), spheres_.begin(), spheres_.end());
-}
-
-void Builder::bound_surfaces() {
-  SceneTables& t = tables();
-  if (t.surfaces.empty()) return;
-  SceneInfo& info = scene_.info;
-  std::fill_n(info.bounds_min, 3, std::numeric_limits<double>::infinity());
-  std::fill_n(info.bounds_max, 3, -std::numeric_limits<double>::infinity());
-  const auto extend = [&](const float* point, float radius) {
-    for (int axis = 0; axis < 3; ++axis) {
-      info.bounds_min[axis] = std::min(info.bounds_min[axis], double{point[axis]} - double{radius});
-      info.bounds_max[axis] = std::max(info.bounds_max[axis], double{point[axis]} + double{radius});
-    }
-  };
-  for (const std::uint32_t vertex : t.triangle_vertices) extend(&t.positions[std::size_t{3} * vertex], 0);
-  for (const SurfaceRecord& sphere : spheres_) extend(sphere.geometry, sphere.geometry[3]);
-
-  double diagonal2 = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double extent = info.bounds_max[axis] - info.bounds_min[axis];
-    t.center[axis] = static_cast<float>(info.bounds_min[axis] + extent / 2);
-    diagonal2 += extent * extent;
-  }
-  t.radius = static_cast<float>(std::sqrt(diagonal2) / 2);
+std::uint32_t Builder::shape_group(const Node& node) {
+  if (const auto known = groups_.find(&node); known != groups_.end()) return known->second;
+  Parameters p = parameters(node);
+  geometry_.begin_group();
+  const auto shapes = p.children("shape");
+  if (shapes.empty()) diagnostics_.error(node.location, "the shapegroup has no shape", "<shape type=\"...\">");
+  for (const Node::Child* child : shapes) compile_shape(*child->node);
+  p.finish();
+  return groups_[&node] = geometry_.end_group();
 }
 
 void Builder::choose_lights() {
@@ -434,6 +330,8 @@ void Builder::summarise() {
   info.parameters = description_.parameters;
   info.triangles = t.triangle_count();
   info.spheres = t.sphere_count();
+  info.other_shapes = t.analytics.size();
+  info.instances = t.instances.size();
   info.lights = t.lights.size();
   info.width = t.film.width;
   info.height = t.film.height;
@@ -442,8 +340,8 @@ void Builder::summarise() {
   info.rr_depth = t.integrator.rr_depth;
   info.emitter_samples = t.integrator.emitter_samples;
   info.table_bytes = bytes_of(t.positions) + bytes_of(t.normals) + bytes_of(t.texcoords) +
-                     bytes_of(t.triangle_vertices) + bytes_of(t.surfaces) + bytes_of(t.shapes) +
-                     bytes_of(t.parameters) + bytes_of(t.texels) + bytes_of(t.lights);
+                     bytes_of(t.triangle_vertices) + bytes_of(t.surfaces) + bytes_of(t.shapes) + bytes_of(t.analytics) +
+                     bytes_of(t.instances) + bytes_of(t.parameters) + bytes_of(t.texels) + bytes_of(t.lights);
 }
 
 LoadedScene Builder::build(const LoadOptions& options) {
@@ -467,9 +365,8 @@ LoadedScene Builder::build(const LoadOptions& options) {
   if (tables().lights.empty() && !diagnostics_.has_errors()) {
     diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
   }
-  append_spheres();
+  geometry_.finish(scene_.info);
   attributes_.finish();
-  bound_surfaces();
   choose_lights();
   summarise();
   return std::move(scene_);

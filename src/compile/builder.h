@@ -10,12 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "compile/analytic_shape.h"
 #include "compile/compile.h"
+#include "compile/geometry_builder.h"
 #include "compile/images.h"
 #include "compile/mesh_attributes.h"
 #include "compile/plugin_table.h"
-#include "formats/mesh_data.h"
 #include "light/light_choice.h"
 #include "scene/parameters.h"
 
@@ -27,24 +26,6 @@ inline constexpr std::uint64_t kMaxFilmPixels = std::uint64_t{1} << 28;
 /// Of a pixel while it is rendered: double-precision sums of three channels of four images, and a count.
 inline constexpr std::uint64_t kFilmBytes = 3 * 4 * 8 + 4;
 inline constexpr double kMaxEmission = 1e18;  ///< of radiance and intensity; its square must fit a float
-
-/// The two sides of a surface; `front` is the one that the normal points to.
-struct Material {
-  MaterialWord front = make_material(BsdfKind::absorb, 0);
-  MaterialWord back = make_material(BsdfKind::absorb, 0);
-};
-
-/// A shape in world space. With `normals` the mesh is smooth, without it is flat.
-struct ShapeGeometry {
-  struct Sphere {
-    glm::dvec3 center;
-    double radius;
-    bool flip_normals;
-  };
-  MeshData mesh;
-  std::vector<Sphere> spheres;
-  std::optional<AnalyticShape> analytic;
-};
 
 /// For a film that does not fit `memory` bytes.
 std::string film_memory_message(int width, int height, std::uint64_t memory);
@@ -142,8 +123,12 @@ class Builder {
   /// A light that surrounds the scene, of which there may be one.
   void add_environment(const Node& node, const LightRecord& light, const LightPower& power);
   /// The records of a shape's primitives, until the next shape is added.
-  std::span<SurfaceRecord> surfaces_of(std::uint32_t shape);
-  bool is_sphere(std::uint32_t shape) const { return is_sphere_[shape]; }
+  std::span<SurfaceRecord> surfaces_of(std::uint32_t shape) { return geometry_.surfaces_of(shape); }
+  bool is_sphere(std::uint32_t shape) const { return geometry_.is_sphere(shape); }
+  bool is_analytic(std::uint32_t shape) const { return geometry_.is_analytic(shape); }
+  /// The group of shapes that a `shapegroup` node is; one that several instances refer to is compiled once.
+  std::uint32_t shape_group(const Node& node);
+  GeometryBuilder& geometry() { return geometry_; }
   /// The filter of a film node; Mitsuba's, gaussian, if it names none.
   FilterRecord rfilter(Parameters& film);
   /// A line for `norrsken info`.
@@ -159,12 +144,8 @@ class Builder {
   void override_samples_per_pixel(const LoadOptions& options);
   FilmSettings film(Parameters& sensor, const LoadOptions& options);
   void compile_shape(const Node& node);
+  Material material_of(Parameters& shape);
   void compile_emitter(const Node& node, std::uint32_t shape);
-  std::uint32_t add_shape(ShapeGeometry geometry, Material material);
-  /// Lets go of the mesh's arrays as it copies them: a large mesh is never in memory twice.
-  void add_triangles(MeshData mesh, Material material, std::uint32_t shape);
-  void append_spheres();
-  void bound_surfaces();
   void choose_lights();
   void summarise();
 
@@ -177,6 +158,8 @@ class Builder {
   const FileSystem& files_;
   Diagnostics& diagnostics_;
   LoadedScene scene_;
+  GeometryBuilder geometry_{scene_.tables, diagnostics_};
+  std::map<const Node*, std::uint32_t> groups_;
   ImageStore images_{files_, diagnostics_, scene_.tables};
   MeshAttributes attributes_{scene_.tables};
   std::map<const Node*, Material> materials_;
@@ -184,8 +167,6 @@ class Builder {
   std::optional<Material> default_material_;
   int bsdf_depth_ = 0;
   std::vector<LightPower> light_powers_;
-  std::vector<bool> is_sphere_;         ///< by shape
-  std::vector<SurfaceRecord> spheres_;  ///< waiting to be put behind the triangles
 };
 
 }  // namespace norrsken

@@ -6,7 +6,7 @@
 //   to_world      transform (default identity), applied to the sphere of that centre and radius; its scale must be the
 //                 same in all directions
 //   flip_normals  boolean (default false): the normal points to the centre
-// A mirroring `to_world` turns the normal around, as in Mitsuba.
+// u turns around the local z axis, v goes from the pole at +z to that at -z. A mirroring `to_world` turns the normal around, as in Mitsuba.
 // Departures: Mitsuba warns of a scale that differs between directions and renders a sphere; here it is an error.
 #include <fmt/format.h>
 
@@ -30,6 +30,17 @@ bool scales_uniformly(const glm::dmat3& linear, double scale) {
     }
   }
   return true;
+}
+
+/// Texture coordinates turn with the sphere. Returns where the rotation is stored, kNone if there is none.
+std::uint32_t store_rotation(const glm::dmat3& object_from_world, Builder& builder) {
+  if (object_from_world == glm::dmat3(1)) return kNone;
+  float rows[9];
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      rows[3 * row + column] = static_cast<float>(object_from_world[column][row]);
+  }
+  return builder.add_parameters(rows);
 }
 
 }  // namespace
@@ -63,7 +74,8 @@ std::optional<ShapeGeometry> compile_shape_sphere(Parameters& p, Builder& builde
   }
   builder.describe(p.node(), fmt::format("radius {:.6g}", world_radius));
   ShapeGeometry geometry;
-  geometry.spheres.push_back({world_center, world_radius, flip_normals != (determinant < 0)});
+  const std::uint32_t rotation = store_rotation(glm::transpose(linear / scale), builder);
+  geometry.spheres.push_back({world_center, world_radius, flip_normals != (determinant < 0), rotation});
   return geometry;
 }
 

@@ -1,0 +1,89 @@
+// The surfaces' part of the tables: triangles as they come, everything else behind them when all shapes are known.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compile/analytic_shape.h"
+#include "formats/mesh_data.h"
+#include "norrsken/diagnostics.h"
+#include "norrsken/scene.h"
+#include "scene/description.h"
+#include "tables/scene_tables.h"
+
+namespace norrsken {
+
+/// The two sides of a surface; `front` is the one that the normal points to.
+struct Material {
+  MaterialWord front = make_material(BsdfKind::absorb, 0);
+  MaterialWord back = make_material(BsdfKind::absorb, 0);
+};
+
+/// A shape in world space. With `normals` the mesh is smooth, without it is flat.
+struct ShapeGeometry {
+  struct Sphere {
+    glm::dvec3 center;
+    double radius;
+    bool flip_normals;
+    std::uint32_t object_from_world = kNone;  ///< as in ShapeRecord
+  };
+  MeshData mesh;
+  std::vector<Sphere> spheres;
+  std::optional<AnalyticShape> analytic;
+  bool of_shapes = false;  ///< made of other shapes, which the builder has already; all else is empty
+};
+
+/// A placement in single precision.
+Placement make_placement(const glm::dmat4& world_from_local);
+
+class GeometryBuilder {
+ public:
+  GeometryBuilder(SceneTables& tables, Diagnostics& diagnostics) : tables_(tables), diagnostics_(diagnostics) {}
+
+  /// Lets go of the mesh's arrays as it copies them: a large mesh is never in memory twice. Returns the shape's number.
+  std::uint32_t add(ShapeGeometry geometry, Material material);
+  bool is_sphere(std::uint32_t shape) const { return classes_[shape] == Class::sphere; }
+  bool is_analytic(std::uint32_t shape) const { return classes_[shape] == Class::analytic; }
+  /// The records of a shape's primitives, until the next shape is added.
+  std::span<SurfaceRecord> surfaces_of(std::uint32_t shape);
+
+  /// What is added until `end_group` belongs to a group, which only its instances show. Groups are not nested.
+  void begin_group() { group_ = tables_.group_count++; }
+  /// Returns the group's number.
+  std::uint32_t end_group();
+  bool in_group() const { return group_ != kNone; }
+  /// False if the group would reach out of range there.
+  bool add_instance(std::uint32_t group, const glm::dmat4& world_from_object);
+
+  /// Puts spheres and analytic primitives behind the triangles, and tells the bounds of it all.
+  void finish(SceneInfo& info);
+
+ private:
+  enum class Class { triangles, sphere, analytic };
+  struct Box {
+    glm::dvec3 lower{std::numeric_limits<double>::infinity()}, upper{-std::numeric_limits<double>::infinity()};
+    void extend(const glm::dvec3& p, double radius = 0);
+    void extend(const Box& box, const glm::dmat4& map);
+    bool empty() const { return lower.x > upper.x; }
+  };
+
+  std::vector<SurfaceRecord>& surfaces(Class of);
+  void add_spheres(const std::vector<ShapeGeometry::Sphere>& spheres, Material material, ShapeRecord& record);
+  void add_analytic(const AnalyticShape& analytic, Material material);
+  void add_triangles(MeshData mesh, Material material);
+  std::uint32_t next_shape() const { return static_cast<std::uint32_t>(tables_.shapes.size()); }
+
+  SceneTables& tables_;
+  Diagnostics& diagnostics_;
+  std::vector<Class> classes_;                      ///< by shape
+  std::vector<SurfaceRecord> spheres_, analytics_;  ///< waiting to be put behind the triangles
+  std::uint32_t group_ = kNone;
+  std::map<std::uint32_t, Box> boxes_;  ///< by group, the world's at kNone
+};
+
+}  // namespace norrsken
