@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Computes src/bsdf/metals.inc, the indices of refraction of named conductors, from measured curves.
+"""Computes src/bsdf/metals.def, the indices of refraction of named conductors, from measured curves.
 
-    scripts/make_metals.py FOLDER > src/bsdf/metals.inc
+    scripts/make_metals.py FOLDER > src/bsdf/metals.def
 
 FOLDER holds NAME.eta.spd and NAME.k.spd for every material: lines of wavelength in nm and value; '#' begins a comment.
 The three numbers of a curve are what a renderer that works in RGB makes of it: weighed with the CIE 1931 2-degree

@@ -18,7 +18,7 @@ struct Metal {
 };
 
 constexpr Metal kMetals[] = {
-#include "bsdf/metals.inc"
+#include "bsdf/metals.def"
 };
 
 const Metal* find_metal(std::string_view name) {
