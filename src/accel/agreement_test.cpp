@@ -183,5 +183,15 @@ TEST(Planes, MergeTheRoomToThirteenPlanes) {
   EXPECT_EQ(polygons, 13u);
 }
 
+TEST(Planes, LeaveNoWallOutThatLightFromOutsideMeets) {
+  const auto viewed = view_scene("hexagon_room", AccelKind::planes);
+  SceneTables scene = viewed->scene.tables().tables;
+  LightRecord surroundings{};
+  surroundings.kind = LightKind::constant;
+  scene.lights.push_back(surroundings);
+  const PlaneTables tables = build_planes(scene);
+  EXPECT_EQ(tables.occluders.axis_begin[3] - tables.occluders.axis_begin[0], 13u);
+}
+
 }  // namespace
 }  // namespace norrsken

@@ -141,7 +141,17 @@ bool bounds_the_scene(const SceneTables& scene, const ConvexPolygon& polygon) {
     extend(scene.surfaces[i].geometry, static_cast<double>(scene.surfaces[i].geometry[3]));
   }
   for (const LightRecord& light : scene.lights) {
-    if (light.kind == LightKind::point) extend(light.origin, 0);
+    switch (light.kind) {
+      case LightKind::triangle:
+      case LightKind::parallelogram:
+      case LightKind::sphere:
+        break;  // on surfaces
+      case LightKind::point:
+        extend(light.origin, 0);
+        break;
+      default:
+        return false;  // from outside, perhaps
+    }
   }
   const SurfaceRecord& surface = scene.surfaces[polygon.primitive];
   const bool front_shut = material_kind(surface.material_front) == BsdfKind::absorb;
