@@ -1,6 +1,8 @@
 // The intersectors on incoherent and coherent rays: rays per second on one core, per instruction set. The displaced
-// spheres of growing triangle count show where Embree overtakes the planes (planes_up_to in src/accel/build.h).
+// spheres of growing triangle count show where Embree overtakes the planes (planes_up_to in src/accel/build.h); on the
+// largest, `bare` is nothing but a loop over rtcIntersect1 with the same rays.
 #include <benchmark/benchmark.h>
+#include <embree3/rtcore.h>
 
 #include "kernel_bench.h"
 
@@ -15,6 +17,28 @@ void closest(benchmark::State& state, const KernelEntry& kernels, const BenchSce
   }
   state.counters["Mrays/s"] = benchmark::Counter(static_cast<double>(rays.arrays().count) * 1e-6,
                                                  benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void bare(benchmark::State& state, const BenchScene& scene, bool coherent) {
+  const BenchRays rays(scene, coherent);
+  const RayArrays& r = rays.arrays();
+  auto* embree = static_cast<RTCScene>(scene.view().accel.embree_scene);
+  for (auto _ : state) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (std::uint32_t i = 0; i < r.count; ++i) {
+      RTCRayHit one;
+      one.ray = {r.ox[i], r.oy[i], r.oz[i], 0.0f, r.dx[i], r.dy[i], r.dz[i], 0.0f, __builtin_inff(), ~0u, 0u, 0u};
+      one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(embree, &context, &one);
+      rays.t()[i] = one.ray.tfar;
+      rays.primitives()[i] = one.hit.primID;
+    }
+    benchmark::ClobberMemory();
+  }
+  state.counters["Mrays/s"] =
+      benchmark::Counter(static_cast<double>(r.count) * 1e-6, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void occluded(benchmark::State& state, const KernelEntry& kernels, const BenchScene& scene) {
@@ -51,6 +75,17 @@ void register_all() {
             "closest/mesh_" + std::to_string(triangles) + "/" + accel_name(kind) + "/" + (*k)->name;
         benchmark::RegisterBenchmark(name.c_str(), [k, &mesh](auto& state) { closest(state, **k, mesh, false); });
       }
+    }
+  }
+  // Built when it is first asked for: it takes seconds.
+  for (const bool coherent : {false, true}) {
+    const std::string rays = coherent ? "camera" : "closest";
+    const auto mesh = [] { return &bench_sphere_mesh(1'000'000, AccelKind::embree); };
+    benchmark::RegisterBenchmark((rays + "/mesh_1000000/bare").c_str(),
+                                 [coherent, mesh](auto& state) { bare(state, *mesh(), coherent); });
+    for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+      benchmark::RegisterBenchmark((rays + "/mesh_1000000/embree/" + (*k)->name).c_str(),
+                                   [k, coherent, mesh](auto& state) { closest(state, **k, *mesh(), coherent); });
     }
   }
 }

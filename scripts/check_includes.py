@@ -66,7 +66,7 @@ API_USERS = set(HOST_LAYERS) | {"color", "accel", "isa"}
 # Libraries and where they may be included; unlisted libraries are free.
 LIBRARIES = {
     "hwy/": ["simd"],
-    "embree3/": ["accel"],
+    "embree3/": ["accel", "benchmarks"],
     "OpenImageIO/": ["film", "formats"],
     "pugixml.hpp": ["formats"],
     "zlib.h": ["formats"],

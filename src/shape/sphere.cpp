@@ -34,7 +34,10 @@ bool scales_uniformly(const glm::dmat3& linear, double scale) {
 
 /// Texture coordinates turn with the sphere. Returns where the rotation is stored, kNone if there is none.
 std::uint32_t store_rotation(const glm::dmat3& object_from_world, Builder& builder) {
-  if (object_from_world == glm::dmat3(1)) return kNone;
+  const auto is_rounding = [](double difference) { return std::abs(difference) < 1e-12; };
+  bool rotated = false;
+  for (int i = 0; i < 9; ++i) rotated |= !is_rounding(object_from_world[i / 3][i % 3] - (i % 4 == 0));
+  if (!rotated) return kNone;
   float rows[9];
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
