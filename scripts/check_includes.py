@@ -17,10 +17,11 @@ import tempfile
 FAMILIES = ["bsdf", "camera", "integrator", "light", "rfilter", "sampler", "shape", "texture"]
 
 # Mathematics that several models of a family use.
-SHARED = {"bsdf/fresnel.h", "bsdf/microfacet.h", "sampler/dimensions.h", "sampler/hash.h"}
+SHARED = {"bsdf/fresnel.h", "bsdf/microfacet.h", "camera/connect.h", "light/emit.h",
+          "sampler/dimensions.h", "sampler/hash.h"}
 
 # Loops over the kinds of a family, besides FAMILY/FAMILY.h.
-DISPATCH = {"light/sample_lights.h", "texture/parameter_reader.h"}
+DISPATCH = {"light/emit_lights.h", "light/sample_lights.h", "texture/parameter_reader.h"}
 
 # Headers of families that compute tables: for src/compile as well. (What only a family's own host files share is in a
 # header that ends in _host.)
@@ -39,7 +40,9 @@ KERNEL_LAYERS = {
     "color": ["base", "simd", "math"],
     **{family: KERNEL_BASE for family in FAMILIES},
     # Parameters of these may be textures.
-    **{family: KERNEL_BASE + ["texture"] for family in ("bsdf", "light")},
+    "bsdf": KERNEL_BASE + ["texture"],
+    # So may that of a light, which may have the form of any shape.
+    "light": KERNEL_BASE + ["shape", "texture"],
     "accel": KERNEL_BASE + ["shape"],
     "wave": KERNEL_BASE + FAMILIES + ["accel"],
     "isa": KERNEL_BASE + FAMILIES + ["accel", "wave"],

@@ -1,12 +1,18 @@
 #include "light/area_host.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cfloat>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
 #include <optional>
+
+#include "light/light_host.h"
+#include "shape/cylinder.h"
+#include "shape/disk.h"
 
 namespace norrsken {
 namespace {
@@ -15,10 +21,6 @@ using Corner = std::array<float, 3>;
 using Corners = std::array<Corner, 3>;
 /// A directed edge by position, so that triangles that only share places, not vertices, are neighbours too.
 using Edge = std::pair<Corner, Corner>;
-
-void store(float (&out)[3], const glm::dvec3& v) {
-  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
-}
 
 glm::dvec3 to_dvec(const Corner& c) { return {c[0], c[1], c[2]}; }
 
@@ -39,10 +41,10 @@ LightRecord flat_light(LightKind kind, const Corner& apex, const Corner& left, c
   const glm::dvec3 normal = glm::cross(edge1, edge2);
   const double parallelogram_area = glm::length(normal);
   light.area = static_cast<float>(kind == LightKind::triangle ? parallelogram_area / 2 : parallelogram_area);
-  store(light.origin, to_dvec(apex));
-  store(light.edge1, edge1);
-  store(light.edge2, edge2);
-  store(light.normal, normal / parallelogram_area);
+  set_values(light.origin, to_dvec(apex));
+  set_values(light.edge1, edge1);
+  set_values(light.edge2, edge2);
+  set_values(light.normal, normal / parallelogram_area);
   return light;
 }
 
@@ -67,39 +69,93 @@ std::map<Edge, std::uint32_t> edges_of(const std::vector<Corners>& triangles) {
   return edges;
 }
 
-const Corner& corner_across(const Corners& triangle, const Edge& edge) {
-  return *std::find_if(triangle.begin(), triangle.end(),
-                       [&](const Corner& corner) { return corner != edge.first && corner != edge.second; });
+std::size_t corner_across(const Corners& triangle, const Edge& edge) {
+  const auto corner = std::find_if(triangle.begin(), triangle.end(),
+                                   [&](const Corner& c) { return c != edge.first && c != edge.second; });
+  return static_cast<std::size_t>(corner - triangle.begin());
 }
 
-std::vector<AreaLight> flat_lights(const std::vector<Corners>& triangles) {
+using Texcoord = std::array<double, 2>;
+
+/// Texture coordinates at the corners; barycentric ones where the mesh has none.
+std::array<Texcoord, 3> texcoords_of(const SceneTables& tables, std::size_t triangle, bool has_texcoords) {
+  std::array<Texcoord, 3> uv{{{0, 0}, {1, 0}, {0, 1}}};
+  for (std::size_t k = 0; has_texcoords && k < 3; ++k) {
+    const std::size_t vertex = tables.triangle_vertices[3 * triangle + k];
+    for (std::size_t i = 0; i < 2; ++i) uv[k][i] = double{tables.texcoords[2 * vertex + i]};
+  }
+  return uv;
+}
+
+/// A shape's triangles, and what the texture of their radiance needs.
+struct Mesh {
+  std::vector<Corners> triangles;
+  std::vector<std::array<Texcoord, 3>> texcoords;
+  std::uint32_t first_primitive, shape;
+  TextureWord texture;
+  bool merge;
+};
+
+/// What FlatAreaLight's texture asks for: see src/light/flat_area.h. `apex` is the corner that the light begins with.
+std::uint32_t add_texture(Builder& builder, const Mesh& mesh, std::size_t triangle, std::size_t apex) {
+  const auto& uv = mesh.texcoords[triangle];
+  const Texcoord &origin = uv[apex], &left = uv[(apex + 1) % 3], &right = uv[(apex + 2) % 3];
+  ParameterBlock block;
+  block.add_word(mesh.texture).add(origin[0]).add(origin[1]);
+  for (const Texcoord& c : {left, right}) block.add(c[0] - origin[0]).add(c[1] - origin[1]);
+  block.add_word(mesh.first_primitive + static_cast<std::uint32_t>(triangle)).add_word(mesh.shape);
+  return builder.add_parameters(block.values());
+}
+
+/// Whether the texture coordinates of two triangles that make a parallelogram are one map of it: `apex` is the first's
+/// corner off their common edge, `opposite` the second's.
+bool is_one_map(const Mesh& mesh, std::size_t first, std::size_t apex, std::size_t second, std::size_t opposite) {
+  if (mesh.texture == 0) return true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto first_uv = [&](std::size_t k) { return mesh.texcoords[first][(apex + k) % 3][i]; };
+    const auto second_uv = [&](std::size_t k) { return mesh.texcoords[second][(opposite + k) % 3][i]; };
+    const double size = std::max({std::abs(first_uv(0)), std::abs(first_uv(1)), std::abs(first_uv(2)), 1.0});
+    const auto equal = [&](double a, double b) { return std::abs(a - b) <= 4 * FLT_EPSILON * size; };
+    if (!equal(first_uv(1), second_uv(2)) || !equal(first_uv(2), second_uv(1)) ||
+        !equal(second_uv(0), first_uv(1) + first_uv(2) - first_uv(0)))
+      return false;
+  }
+  return true;
+}
+
+std::vector<AreaLight> flat_lights(Builder& builder, const Mesh& mesh) {
+  const std::vector<Corners>& triangles = mesh.triangles;
   const auto edges = edges_of(triangles);
   std::vector<bool> taken(triangles.size(), false);
   std::vector<AreaLight> lights;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     if (taken[i]) continue;
     AreaLight light;
-    light.primitives[0] = i;
+    light.primitives = {i};
     light.record = flat_light(LightKind::triangle, triangles[i][0], triangles[i][1], triangles[i][2]);
-    for (std::size_t k = 0; k < 3 && light.primitives[1] == kNone; ++k) {
+    std::size_t first_corner = 0;
+    for (std::size_t k = 0; mesh.merge && k < 3 && light.primitives.size() == 1; ++k) {
       const Corner &apex = triangles[i][k], &left = triangles[i][(k + 1) % 3], &right = triangles[i][(k + 2) % 3];
       // A neighbour that faces the same way runs along the shared edge in the other direction.
       const auto neighbour = edges.find({right, left});
       if (neighbour == edges.end() || neighbour->second <= i || taken[neighbour->second]) continue;
-      const Corner& opposite = corner_across(triangles[neighbour->second], neighbour->first);
-      if (!completes_parallelogram(apex, left, right, opposite)) continue;
-      light.primitives[1] = neighbour->second;
+      const std::size_t across = corner_across(triangles[neighbour->second], neighbour->first);
+      if (!completes_parallelogram(apex, left, right, triangles[neighbour->second][across])) continue;
+      if (!is_one_map(mesh, i, k, neighbour->second, across)) continue;
+      light.primitives.push_back(neighbour->second);
       light.record = flat_light(LightKind::parallelogram, apex, left, right);
+      first_corner = k;
       taken[neighbour->second] = true;
     }
-    lights.push_back(light);
+    if (mesh.texture != 0) light.record.parameters = add_texture(builder, mesh, i, first_corner);
+    lights.push_back(std::move(light));
   }
   return lights;
 }
 
 AreaLight sphere_light(const SurfaceRecord& sphere, bool flip_normals, std::uint32_t primitive) {
   AreaLight light;
-  light.primitives[0] = primitive;
+  light.primitives = {primitive};
   light.record.kind = LightKind::sphere;
   const double radius = sphere.geometry[3];
   light.record.area = static_cast<float>(4 * std::numbers::pi * radius * radius);
@@ -109,23 +165,58 @@ AreaLight sphere_light(const SurfaceRecord& sphere, bool flip_normals, std::uint
   return light;
 }
 
+bool can_be_sampled(AnalyticKind kind) {
+  switch (kind) {
+#define NORRSKEN_ANALYTIC(name, Model) \
+  case AnalyticKind::name:             \
+    return isa_host::kCanBeSampled<isa_host::Model>;
+#include "shape/list.def"
+#undef NORRSKEN_ANALYTIC
+    default:
+      return false;
+  }
+}
+
+/// The one light of a shape that may have many primitives.
+std::vector<AreaLight> analytic_lights(Builder& builder, std::span<const SurfaceRecord> surfaces, TextureWord texture) {
+  if (surfaces.empty()) return {};
+  const auto analytic = std::bit_cast<std::uint32_t>(surfaces[0].geometry[0]);
+  AreaLight light;
+  for (std::uint32_t i = 0; i < surfaces.size(); ++i) light.primitives.push_back(i);
+  light.record.kind = LightKind::analytic;
+  light.record.area = builder.tables().analytics[analytic].area;
+  light.sampled = can_be_sampled(builder.tables().analytics[analytic].kind);
+  light.record.parameters = builder.add_parameters(ParameterBlock().add_word(texture).add_word(analytic).values());
+  return {light};
+}
+
 }  // namespace
 
-std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape) {
+std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, TextureWord texture) {
   const auto surfaces = builder.surfaces_of(shape);
   const ShapeRecord& record = builder.tables().shapes[shape];
+  if (builder.is_analytic(shape)) return analytic_lights(builder, surfaces, texture);
   if (builder.is_sphere(shape)) {
     std::vector<AreaLight> lights;
     for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
       lights.push_back(sphere_light(surfaces[i], record.flip_normals != 0, i));
+      if (texture == 0) continue;
+      lights.back().record.parameters =
+          builder.add_parameters(ParameterBlock().add_word(texture).add_word(shape).values());
     }
     return lights;
   }
-  std::vector<Corners> triangles;
+  Mesh mesh{{}, {}, record.first_primitive, shape, texture, true};
+  const bool has_texcoords = record.has_texcoords != 0;
+  // Attributes belong to triangles, and so do coordinates that are barycentric.
+  if (texture != 0) mesh.merge = has_texcoords && texture_kind(texture) != TextureKind::mesh_attribute;
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
-    triangles.push_back(corners_of(builder.tables(), record.first_primitive + i));
+    mesh.triangles.push_back(corners_of(builder.tables(), record.first_primitive + i));
+    if (texture != 0) {
+      mesh.texcoords.push_back(texcoords_of(builder.tables(), record.first_primitive + i, has_texcoords));
+    }
   }
-  return flat_lights(triangles);
+  return flat_lights(builder, mesh);
 }
 
 }  // namespace norrsken

@@ -1,21 +1,22 @@
 // A shape's surface cut into the pieces that next-event estimation samples.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "compile/builder.h"
 
 namespace norrsken {
 
-/// A light without its emission, and the shape's primitives (counted from its first) that it covers; kNone for none.
+/// A light without its emission, and the shape's primitives (counted from its first) that it covers.
 struct AreaLight {
   LightRecord record{};
-  std::array<std::uint32_t, 2> primitives{kNone, kNone};
+  std::vector<std::uint32_t> primitives;
+  bool sampled = true;  ///< false: only rays find it
 };
 
 /// In order of the first primitive of each. Two triangles become one parallelogram if they share an edge, face the same
 /// way, and the corners across that edge mirror each other in its middle, to within the rounding of their coordinates.
-std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape);
+/// With a `texture` as their radiance, texture coordinates count as corners do. A shape with a formula is one light.
+std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, TextureWord texture);
 
 }  // namespace norrsken

@@ -14,6 +14,7 @@
 #include "math/frame.h"
 #include "math/warp.h"
 #include "tables/wave_types.h"
+#include "texture/parameter_reader.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -59,6 +60,13 @@ NORRSKEN_INLINE Light gather_light(const LightRecord* records, UInt index, Mask 
           gather3(base + kLightEdge1, first, active),         gather3(base + kLightEdge2, first, active),
           gather3(base + kLightNormal, first, active),        gather3(base + kLightEmission, first, active),
           gather_uint(base + kLightParameters, first, active)};
+}
+
+/// The word of the texture that is the radiance of lights on surfaces, 0 for lights of one radiance; `parameters` is
+/// the lights' own.
+NORRSKEN_INLINE UInt light_texture(const SceneView& scene, UInt parameters, Mask active) {
+  if (scene.texture_kinds == 0) return UInt(0u);
+  return gather_uint(scene.parameters, parameters, active & (parameters != UInt(kNone)));
 }
 
 /// Alias method (Walker 1977, Vose 1991): u.x picks a column, u.y one of its two lights. One number for both would

@@ -1,5 +1,6 @@
 #include "light/light_choice.h"
 
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -17,6 +18,15 @@ LightPower surface_power(double area, const glm::dvec3& radiance) {
   return {.own = std::numbers::pi * area * luminance_of(radiance)};
 }
 LightPower point_power(const glm::dvec3& intensity) { return {.own = 4 * std::numbers::pi * luminance_of(intensity)}; }
+LightPower spot_power(const glm::dvec3& intensity, double beam, double cutoff) {
+  // The integral of the falloff over the cone's solid angle, in closed form; its limit if there is no edge.
+  const double share = cutoff > beam ? 1 - (std::sin(cutoff) - std::sin(beam)) / (cutoff - beam) : 1 - std::cos(cutoff);
+  return {.own = 2 * std::numbers::pi * share * luminance_of(intensity)};
+}
+LightPower projector_power(double area, const glm::dvec3& irradiance) {
+  return {.own = std::numbers::pi * area * luminance_of(irradiance)};
+}
+LightPower directional_power(const glm::dvec3& irradiance) { return {.per_cross_section = luminance_of(irradiance)}; }
 LightPower environment_power(const glm::dvec3& radiance) {
   return {.per_cross_section = 4 * std::numbers::pi * luminance_of(radiance)};
 }

@@ -18,6 +18,12 @@ struct LightPower {
 LightPower surface_power(double area, const glm::dvec3& radiance);
 /// 4 pi I, for a point of radiant intensity I.
 LightPower point_power(const glm::dvec3& intensity);
+/// Of a cone in which the intensity I falls linearly with the angle between `beam` and `cutoff` (radians).
+LightPower spot_power(const glm::dvec3& intensity, double beam, double cutoff);
+/// pi A E, for a picture of (mean) irradiance pi E and of this area.
+LightPower projector_power(double area, const glm::dvec3& irradiance);
+/// E for each unit of cross-section.
+LightPower directional_power(const glm::dvec3& irradiance);
 /// 4 pi L for each unit of cross-section, for an environment of (mean) radiance L.
 LightPower environment_power(const glm::dvec3& radiance);
 

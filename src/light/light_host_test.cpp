@@ -180,10 +180,12 @@ TEST(AreaEmitter, ShinesWithOneUnlessTold) {
 }
 
 TEST(EmitterHost, RefusesOthers) {
-  EXPECT_THAT(compile_emitter(R"(<emitter type="envmap"/>)").messages(),
-              ElementsAre("error: emitter 'envmap' is not supported yet [area, constant, point]"));
+  EXPECT_THAT(compile_emitter(R"(<emitter type="sunsky"/>)").messages(),
+              ElementsAre("error: emitter 'sunsky' is not supported yet [area, constant, directional, directionalarea, "
+                          "envmap, point, projector, spot]"));
   EXPECT_THAT(compile_emitter(R"(<emitter type="pont"/>)").messages(),
-              ElementsAre("error: unknown emitter 'pont', did you mean 'point'? [area, constant, point]"));
+              ElementsAre("error: unknown emitter 'pont', did you mean 'point'? [area, constant, directional, "
+                          "directionalarea, envmap, point, projector, spot]"));
 }
 
 TEST(EmitterHost, BrokenShapesEmittersAreCheckedToo) {

@@ -7,14 +7,12 @@
 #include <fmt/format.h>
 
 #include "compile/plugins.h"
+#include "light/light_host.h"
 
 namespace norrsken {
 
 void compile_emitter_point(Parameters& p, Builder& builder, std::uint32_t shape) {
-  if (shape != kNone) {
-    builder.diagnostics().error(p.node().plugin_location, "emitter 'point' has no surface and cannot belong to a shape",
-                                "area");
-  }
+  refuse_shape(p, shape, "has no surface");
   if (p.has("position") && p.has("to_world")) {
     p.error("to_world", "emitter 'point' has both 'position' and 'to_world'", "one of them");
   }
@@ -24,10 +22,8 @@ void compile_emitter_point(Parameters& p, Builder& builder, std::uint32_t shape)
   const glm::dvec3 intensity = p.color("intensity", glm::dvec3(1), 0, kMaxEmission, /*emission=*/true);
   LightRecord light{};
   light.kind = LightKind::point;
-  for (int i = 0; i < 3; ++i) {
-    light.origin[i] = static_cast<float>(position[i]);
-    light.emission[i] = static_cast<float>(intensity[i]);
-  }
+  set_values(light.origin, position);
+  set_values(light.emission, intensity);
   builder.add_light(light, point_power(intensity));
   builder.describe(p.node(), fmt::format("intensity {:.6g} {:.6g} {:.6g}", intensity.r, intensity.g, intensity.b));
 }

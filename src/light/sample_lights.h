@@ -1,11 +1,16 @@
 // Next-event estimation over whatever kinds of light the scene has.
 #pragma once
 
+#include "light/analytic_area.h"
 #include "light/constant.h"
+#include "light/directional.h"
+#include "light/envmap.h"
 #include "light/flat_area.h"
 #include "light/light.h"
 #include "light/point.h"
+#include "light/projector.h"
 #include "light/sphere_area.h"
+#include "light/spot.h"
 
 namespace norrsken::NORRSKEN_ISA {
 

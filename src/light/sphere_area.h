@@ -1,4 +1,4 @@
-// Model       A sphere that emits the same radiance in all directions from its outside.
+// Model       A sphere that emits from its outside, the same in all directions; the radiance may be a texture.
 // Parameters  radiance (linear sRGB, W / (m^2 sr))
 // Measure     pdf_sa: uniform over the cone of directions in which the sphere is seen; for a flipped sphere, which
 //             shines inwards, uniform over the area
@@ -7,8 +7,17 @@
 #pragma once
 
 #include "light/emit.h"
+#include "shape/sphere.h"
 
 namespace norrsken::NORRSKEN_ISA {
+
+/// The radiance of textured lanes. Parameters: the texture's word, the shape. Not inlined: few scenes need it.
+__attribute__((noinline)) inline Vec3f sphere_texture(const SceneView& scene, const Light& light, UInt texture,
+                                                      const Vec3f& normal, Mask textured) {
+  const UInt shape = gather_uint(scene.parameters + 1, light.parameters, textured);
+  const Vec2f uv = sphere_uv(gather_sphere_rotation(scene, shape, textured).local(normal));
+  return select(textured, evaluate_texture(scene, texture, {uv, {}, shape, {}}, textured), light.emission);
+}
 
 struct SphereAreaLight {
   /// 1 - cos of the cone's half angle; > 0 only outside of the sphere.
@@ -17,8 +26,8 @@ struct SphereAreaLight {
   }
 
   /// edge1 = (radius, 1 for a flipped normal, 0). A flipped sphere shines inwards.
-  static NORRSKEN_INLINE LightSample sample(const SceneView&, const Light& light, const Vec3f& reference, Vec2f u,
-                                            Mask) {
+  static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f u,
+                                            Mask active) {
     const Float radius = light.edge1.x;
     const Mask flipped = light.edge1.y > Float(0.0f);
     const Vec3f axis = light.origin - reference;
@@ -49,8 +58,9 @@ struct SphereAreaLight {
     const Float area_pdf = pdf_sa_from_pdf_area(Float(1.0f) / light.area, d2, abs(dot(to_light, normal)) / sqrt(d2));
     const Float scale = largest(point) + radius;
     const Float side = select(cone, Float(1.0f), Float(-1.0f));
-    return {fma(normal, side * scale * Float(kOffsetUlps), point), select(cone, cone_pdf_sa(h), area_pdf),
-            light.emission, cone | (flipped & (dot(to_light, normal) > Float(0.0f)))};
+    const Vec3f radiance = radiance_at(scene, light, normal, active);
+    return {fma(normal, side * scale * Float(kOffsetUlps), point), select(cone, cone_pdf_sa(h), area_pdf), radiance,
+            cone | (flipped & (dot(to_light, normal) > Float(0.0f)))};
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light& light, const Vec3f& reference,
@@ -66,13 +76,23 @@ struct SphereAreaLight {
   }
 
   /// Uniform over the area, cosine-weighted over directions.
-  static NORRSKEN_INLINE EmittedRay emit(const SceneView&, const Light& light, Vec2f position, Vec2f direction,
+  static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f position, Vec2f direction,
                                          Mask active) {
     const Float radius = light.edge1.x;
     const Vec3f outward = warp_to_sphere(position);
     const Vec3f normal = outward * select(light.edge1.y > Float(0.0f), Float(-1.0f), Float(1.0f));
     const Vec3f point = fma(outward, radius, light.origin);
-    return emit_from_surface(point, normal, largest(point) + radius, light.area, light.emission, direction, active);
+    return emit_from_surface(point, normal, largest(point) + radius, light.area,
+                             radiance_at(scene, light, outward, active), direction, active);
+  }
+
+ private:
+  /// Where the sphere's outward normal is `outward`.
+  static NORRSKEN_INLINE Vec3f radiance_at(const SceneView& scene, const Light& light, const Vec3f& outward,
+                                           Mask active) {
+    const UInt texture = light_texture(scene, light.parameters, active);
+    const Mask textured = active & (texture != UInt(0u));
+    return any(textured) ? sphere_texture(scene, light, texture, outward, textured) : light.emission;
   }
 };
 

@@ -32,6 +32,10 @@ struct LocalSurface {
   Vec3f dp_du, dp_dv;
 };
 
+/// False for shapes whose area nothing samples: as lights, only rays find them.
+template <class Model>
+inline constexpr bool kCanBeSampled = requires(Vec2f u) { Model::sample(u); };
+
 NORRSKEN_INLINE LocalSurface select(Mask m, const LocalSurface& a, const LocalSurface& b) {
   return {select(m, a.position, b.position), select(m, a.normal, b.normal), select(m, a.uv, b.uv),
           select(m, a.dp_du, b.dp_du), select(m, a.dp_dv, b.dp_dv)};

@@ -129,8 +129,8 @@ struct LightRecord {
   float edge2[3];
   float normal[3];    ///< unit, on the side that emits
   float emission[3];  ///< radiance (area lights) or radiant intensity (point), linear sRGB; a mean if textured
-  /// Offset of what else the kind keeps in `parameters`: for the lights of surfaces a colour slot with the texture of
-  /// their radiance, if it has one; kNone if nothing.
+  /// Offset of what else the kind keeps in `parameters`, or kNone if nothing: see the kind's class. For the lights of
+  /// surfaces it begins with the word of the texture that is their radiance, or 0.
   std::uint32_t parameters = kNone;
 };
 

@@ -14,7 +14,16 @@ inline void shade_emission(const SceneView& scene, const Queue& light_hits, Queu
     const Hit hit = load_hit(scene, light_hits, i);
     const UInt light = gather_uint(surface_floats(scene) + 6, record_index(hit.primitive), active);
     const auto* base = reinterpret_cast<const float*>(scene.lights);
-    const Vec3f emission = gather3(base + kLightEmission, light * UInt(kLightFloats), active);
+    Vec3f emission = gather3(base + kLightEmission, light * UInt(kLightFloats), active);
+    if (scene.texture_kinds != 0) {
+      const UInt parameters = gather_uint(base + kLightParameters, light * UInt(kLightFloats), active);
+      const UInt texture = light_texture(scene, parameters, active);
+      const Mask textured = active & (texture != UInt(0u));
+      if (any(textured)) {
+        const SurfacePoint surface = make_surface_point(scene, hit, textured);
+        emission = select(textured, evaluate_texture(scene, texture, surface.texture, textured), emission);
+      }
+    }
 
     Float weight(1.0f);
     const Mask competed = active & (hit.ray.pdf_sa > Float(0.0f));

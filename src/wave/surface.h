@@ -3,7 +3,7 @@
 
 #include "accel/intersect.h"
 #include "math/frame.h"
-#include "math/special.h"
+#include "shape/sphere.h"
 #include "texture/parameter_reader.h"
 #include "wave/placed_surface.h"
 #include "wave/records.h"
@@ -98,31 +98,19 @@ inline void add_triangle_uv(const SceneView& scene, const TrianglePoint& t, Mask
   s.dp_dv = select(active, dp_dv, s.dp_dv);
 }
 
-/// Texture coordinates of spheres: u turns around the local z axis, v goes from the pole at +z to that at -z.
-/// Source: Mitsuba's parameterisation.
+/// Texture coordinates and tangents of spheres.
 inline void add_sphere_uv(const SceneView& scene, Float radius, Mask active, SurfacePoint& s) {
-  const auto* shapes = reinterpret_cast<const float*>(scene.shapes);
-  const UInt rotation = gather_uint(shapes + 5, shape_index(s.texture.shape), active);
-  const Mask rotated = active & (rotation != UInt(kNone));
-  Vec3f row[3];
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    const Vec3f unit{Float(k == 0 ? 1.0f : 0.0f), Float(k == 1 ? 1.0f : 0.0f), Float(k == 2 ? 1.0f : 0.0f)};
-    row[k] = any(rotated) ? select(rotated, gather3(scene.parameters + 3 * k, rotation, rotated), unit) : unit;
-  }
-  const Vec3f n = s.normal;
-  const Vec3f local{dot(row[0], n), dot(row[1], n), dot(row[2], n)};
-  const Float turn = atan2(local.y, local.x) * Float(0.5f * kInvPi);
-  const Vec2f uv{select(turn < Float(0.0f), turn + Float(1.0f), turn), acos(local.z) * Float(kInvPi)};
+  const SphereRotation rotation = gather_sphere_rotation(scene, s.texture.shape, active);
+  const Vec3f local = rotation.local(s.normal);
   // Derivatives of (cos 2 pi u sin pi v, sin 2 pi u sin pi v, cos pi v).
   const Float sin_theta = sqrt(fma(local.x, local.x, local.y * local.y));
   const Mask pole = !(sin_theta > Float(0.0f));
   const Float inv = Float(1.0f) / sin_theta;
   const Vec2f phi = select(pole, Vec2f{Float(1.0f), Float(0.0f)}, Vec2f{local.x * inv, local.y * inv});
-  const auto to_world = [&](const Vec3f& v) { return fma(row[0], v.x, fma(row[1], v.y, row[2] * v.z)); };
   const Float two_pi_r = radius * Float(2.0f * kPi), pi_r = radius * Float(kPi);
-  s.texture.uv = select(active, uv, s.texture.uv);
-  s.dp_du = select(active, to_world({-local.y, local.x, Float(0.0f)}) * two_pi_r, s.dp_du);
-  s.dp_dv = select(active, to_world({local.z * phi.x, local.z * phi.y, -sin_theta}) * pi_r, s.dp_dv);
+  s.texture.uv = select(active, sphere_uv(local), s.texture.uv);
+  s.dp_du = select(active, rotation.world({-local.y, local.x, Float(0.0f)}) * two_pi_r, s.dp_du);
+  s.dp_dv = select(active, rotation.world({local.z * phi.x, local.z * phi.y, -sin_theta}) * pi_r, s.dp_dv);
 }
 
 NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hit& hit, Mask active) {

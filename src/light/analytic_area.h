@@ -1,0 +1,119 @@
+// Model       A shape with a formula of its own that emits from its front, the same in all directions; the radiance may
+//             be a texture.
+// Parameters  radiance (linear sRGB, W / (m^2 sr))
+// Measure     uniform over the area, told as pdf_sa
+// Source      Shirley, Wang, Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", 1996
+// Departures  shapes without a way of sampling their area (see src/shape/shape.h) are lights that only rays find
+#pragma once
+
+#include "light/emit.h"
+#include "math/affine.h"
+#include "shape/cylinder.h"
+#include "shape/disk.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// Parameters: the texture's word, the shape's index in `analytics`.
+struct AnalyticAreaLight {
+  struct Place {
+    Affine world_from_local, local_from_world;
+    UInt kinds;
+    Float side;  ///< -1 for flipped normals
+  };
+  static inline Place load(const SceneView& scene, const Light& light, Mask active) {
+    constexpr std::uint32_t kFloats = sizeof(AnalyticRecord) / sizeof(float);
+    const UInt record = gather_uint(scene.parameters + 1, light.parameters, active) * UInt(kFloats);
+    const auto* words = reinterpret_cast<const float*>(scene.analytics) + sizeof(Placement) / sizeof(float);
+    const Mask flipped = gather_uint(words + 1, record, active) != UInt(0u);
+    return {gather_affine(scene.analytics->place.world_from_local, record, active),
+            gather_affine(scene.analytics->place.local_from_world, record, active), gather_uint(words, record, active),
+            select(flipped, Float(-1.0f), Float(1.0f))};
+  }
+
+  template <class Model>
+  static NORRSKEN_INLINE Mask lanes_of(const SceneView& scene, AnalyticKind kind, const Place& place, Mask active) {
+    const auto number = static_cast<std::uint32_t>(kind);
+    const bool occurs = kCanBeSampled<Model> && (scene.analytic_kinds & (1u << number)) != 0;
+    return occurs ? active & (place.kinds == UInt(number)) : Float(1.0f) < Float(0.0f);
+  }
+
+  static NORRSKEN_INLINE Vec3f world_normal(const Place& place, const Vec3f& local) {
+    return normalize(place.local_from_world.transposed(local)) * place.side;
+  }
+
+  __attribute__((noinline)) static LightSample sample(const SceneView& scene, const Light& light,
+                                                      const Vec3f& reference, Vec2f u, Mask active) {
+    const AreaPoint p = sample_area(scene, light, u, active);
+    const Vec3f to_light = p.point - reference;
+    const Float distance2 = dot(to_light, to_light);
+    const Float facing = -dot(to_light, p.normal);  // cos at the light, times the distance
+    const Float pdf = distance2 * sqrt(distance2) / (facing * light.area);
+    return {fma(p.normal, p.scale * Float(kOffsetUlps), p.point), pdf, p.radiance, p.sampled & (facing > Float(0.0f))};
+  }
+
+  __attribute__((noinline)) static EmittedRay emit(const SceneView& scene, const Light& light, Vec2f position,
+                                                   Vec2f direction, Mask active) {
+    const AreaPoint p = sample_area(scene, light, position, active);
+    return emit_from_surface(p.point, p.normal, p.scale, light.area, p.radiance, direction, p.sampled);
+  }
+
+  __attribute__((noinline)) static Float pdf_sa(const SceneView& scene, const Light& light, const Vec3f& reference,
+                                                const Vec3f& direction, Float distance, Mask active) {
+    const Place place = load(scene, light, active);
+    const Vec3f local = place.local_from_world.point(fma(direction, distance, reference));
+    Vec3f normal{Float(0.0f), Float(0.0f), Float(1.0f)};
+    Mask sampled = Float(1.0f) < Float(0.0f);
+#define NORRSKEN_ANALYTIC(kind, Model)                                                                \
+  if (const Mask of_kind = lanes_of<Model>(scene, AnalyticKind::kind, place, active); any(of_kind)) { \
+    normal = select(of_kind, Model::surface_at(local).normal, normal);                                \
+    sampled |= of_kind;                                                                               \
+  }
+#include "shape/list.def"
+#undef NORRSKEN_ANALYTIC
+    const Float cosine = -dot(direction, world_normal(place, normal));
+    return zero_unless(sampled, pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, cosine));
+  }
+
+ private:
+  struct AreaPoint {
+    Vec3f point, normal, radiance;
+    Float scale;  ///< what rounding is relative to on a ray's way to the local space and back
+    Mask sampled;
+  };
+  static inline AreaPoint sample_area(const SceneView& scene, const Light& light, Vec2f u, Mask active) {
+    const Place place = load(scene, light, active);
+    const UInt texture = light_texture(scene, light.parameters, active);
+    const Mask textured = active & (texture != UInt(0u));
+    const Vec3f zero{Float(0.0f), Float(0.0f), Float(0.0f)};
+    LocalPoint local{zero, {Float(0.0f), Float(0.0f), Float(1.0f)}};
+    TexturePoint on_texture{};
+    Mask sampled = Float(1.0f) < Float(0.0f);
+#define NORRSKEN_ANALYTIC(kind, Model)                                                              \
+  if (const Mask of_kind = lanes_of<Model>(scene, AnalyticKind::kind, place, active); any(of_kind)) \
+    sample_kind<Model>(u, any(textured), of_kind, local, on_texture, sampled);
+#include "shape/list.def"
+#undef NORRSKEN_ANALYTIC
+    const Vec3f point = place.world_from_local.point(local.position);
+    const Vec3f there = place.local_from_world.magnitude(point);
+    const Float one(1.0f);
+    const Float scale =
+        largest(place.world_from_local.magnitude({max(there.x, one), max(there.y, one), max(there.z, one)}));
+    const Vec3f radiance =
+        any(textured) ? select(textured, evaluate_texture(scene, texture, on_texture, textured), light.emission)
+                      : light.emission;
+    return {point, world_normal(place, local.normal), radiance, scale, sampled};
+  }
+
+  template <class Model>
+  static NORRSKEN_INLINE void sample_kind(Vec2f u, bool needs_uv, Mask of_kind, LocalPoint& local,
+                                          TexturePoint& on_texture, Mask& sampled) {
+    if constexpr (kCanBeSampled<Model>) {
+      const LocalPoint p = Model::sample(u);
+      local = {select(of_kind, p.position, local.position), select(of_kind, p.normal, local.normal)};
+      if (needs_uv) on_texture.uv = select(of_kind, Model::surface_at(p.position).uv, on_texture.uv);
+      sampled |= of_kind;
+    }
+  }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

@@ -1,0 +1,260 @@
+// Parameters of the emitters that are no surfaces: right, missing, wrong, unused; and what textures make of surfaces.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "compile/compile_testing.h"
+#include "light/light_testing.h"
+
+namespace norrsken::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::FloatNear;
+using ::testing::IsEmpty;
+
+const Files kImages = {{"slide.hdr", radiance_file(4, 2, {8, {1, 2, 0.5}})},
+                       {"tiny.hdr", radiance_file(2, 2, {4, {1, 1, 1}})},
+                       {"map.hdr", radiance_file(4, 3, {12, {1, 2, 0.5}})}};
+const std::string kSlide = R"( type="bitmap"><string name="filename" value="slide.hdr"/></texture>)";
+const std::string kAttribute = R"( type="mesh_attribute"><string name="name" value="vertex_color"/></texture>)";
+
+Compiled compile(const std::string& emitter) { return compile_elements(kSensor + kShape + emitter, kImages); }
+Compiled compile_kind(const char* kind, const std::string& inside) {
+  return compile(std::string("<emitter type=\"") + kind + "\">" + inside + "</emitter>");
+}
+std::vector<float> parameters_of(const Compiled& c, std::size_t count) {
+  const auto first = c.tables().parameters.begin() + c.tables().lights.at(0).parameters;
+  return {first, first + static_cast<std::ptrdiff_t>(count)};
+}
+std::uint32_t word(float f) { return std::bit_cast<std::uint32_t>(f); }
+
+TEST(SpotEmitter, HasMitsubasDefaults) {
+  const Compiled c = compile_kind("spot", "");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const LightRecord& light = c.tables().lights.at(0);
+  EXPECT_EQ(light.kind, LightKind::spot);
+  EXPECT_THAT(light.emission, ElementsAre(1, 1, 1));
+  EXPECT_THAT(light.normal, ElementsAre(0, 0, 1));
+  const auto p = parameters_of(c, 6);
+  const double degree = std::numbers::pi / 180;
+  EXPECT_FLOAT_EQ(p[0], static_cast<float>(20 * degree));
+  EXPECT_FLOAT_EQ(p[1], static_cast<float>(std::cos(20 * degree)));
+  EXPECT_FLOAT_EQ(p[2], static_cast<float>(std::cos(15 * degree)));
+  EXPECT_FLOAT_EQ(p[3], static_cast<float>(1 / (5 * degree)));
+  EXPECT_EQ(word(p[5]), 0u);
+}
+
+TEST(SpotEmitter, HasIntensityAnglesTextureAndPlace) {
+  const Compiled c = compile_kind(
+      "spot", R"(<rgb name="intensity" value="1, 2, 3"/><float name="cutoff_angle" value="60"/>)"
+              R"(<float name="beam_width" value="60"/><transform name="to_world"><scale value="2"/>)"
+              R"(<lookat origin="1, 2, 3" target="1, 2, 2" up="0, 1, 0"/></transform><texture name="texture")" +
+                  kSlide);
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const LightRecord& light = c.tables().lights.at(0);
+  EXPECT_THAT(light.emission, ElementsAre(1, 2, 3));
+  EXPECT_THAT(light.origin, ElementsAre(1, 2, 3));
+  EXPECT_THAT(light.normal, ElementsAre(FloatNear(0, 1e-6f), FloatNear(0, 1e-6f), FloatNear(-0.5f, 1e-6f)));
+  const auto p = parameters_of(c, 6);
+  EXPECT_EQ(p[3], 0);  // no edge
+  EXPECT_FLOAT_EQ(p[4], static_cast<float>(1 / std::sqrt(3.0)));
+  EXPECT_EQ(texture_kind(word(p[5])), TextureKind::bitmap);
+}
+
+TEST(SpotEmitter, RefusesWhatMakesNoSense) {
+  EXPECT_THAT(compile_kind("spot", R"(<float name="cutoff_angle" value="180"/>)").messages(),
+              ElementsAre("error: 'cutoff_angle' is 180 [a number above 0 and below 180]"));
+  EXPECT_THAT(compile_kind("spot", R"(<float name="beam_width" value="25"/>)").messages(),
+              ElementsAre("error: 'beam_width' is 25 [a number from 0 to 20]"));
+  EXPECT_THAT(compile_kind("spot", R"(<string name="beam_width" value="25"/>)").messages(),
+              ElementsAre("error: 'beam_width' is a string [float]"));
+  EXPECT_THAT(
+      compile_kind("spot", R"(<float name="cutoff_angle" value="90"/><texture name="texture")" + kSlide).messages(),
+      ElementsAre("error: 'cutoff_angle' is 90 with a texture [an angle below 90]"));
+  EXPECT_THAT(compile_kind("spot", "<texture name=\"texture\"" + kAttribute).messages(),
+              ElementsAre("error: 'texture' is an attribute of meshes [a texture that needs no mesh, such as bitmap]"));
+  EXPECT_THAT(
+      compile_kind("spot", R"(<float name="texture" value="1"/>)").messages(),
+      ElementsAre("error: 'texture' is of one value [a texture that differs from place to place, such as bitmap]"));
+  EXPECT_THAT(compile_kind("spot", R"(<float name="cutoff" value="1"/>)").messages(),
+              ElementsAre("error: unused parameter 'cutoff' of emitter 'spot' "
+                          "[beam_width, cutoff_angle, intensity, texture, to_world]"));
+}
+
+TEST(DirectionalEmitter, GoesAlongItsDirection) {
+  const Compiled plain = compile_kind("directional", "");
+  ASSERT_THAT(plain.messages(), IsEmpty());
+  EXPECT_EQ(plain.tables().lights.at(0).kind, LightKind::directional);
+  EXPECT_THAT(plain.tables().lights.at(0).normal, ElementsAre(0, 0, 1));
+  EXPECT_THAT(plain.tables().lights.at(0).emission, ElementsAre(1, 1, 1));
+  const Compiled c = compile_kind("directional", R"(<vector name="direction" x="0" y="-30" z="40"/>)"
+                                                 R"(<rgb name="irradiance" value="1, 2, 3"/>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_THAT(c.tables().lights.at(0).normal, ElementsAre(0, -0.6f, 0.8f));
+  EXPECT_THAT(c.tables().lights.at(0).emission, ElementsAre(1, 2, 3));
+  const Compiled turned = compile_kind(
+      "directional", R"(<transform name="to_world"><scale value="3"/><rotate x="1" angle="90"/></transform>)");
+  ASSERT_THAT(turned.messages(), IsEmpty());
+  EXPECT_THAT(turned.tables().lights.at(0).normal, ElementsAre(0, -1, FloatNear(0, 1e-6f)));
+}
+
+TEST(DirectionalEmitter, RefusesNoDirectionAndTwo) {
+  EXPECT_THAT(compile_kind("directional", R"(<vector name="direction" x="0" y="0" z="0"/>)").messages(),
+              ElementsAre("error: 'direction' is (0, 0, 0) [a vector with a length]"));
+  EXPECT_THAT(compile_kind("directional", R"(<vector name="direction" x="1" y="0" z="0"/>)"
+                                          R"(<transform name="to_world"><rotate x="1" angle="90"/></transform>)")
+                  .messages(),
+              ElementsAre("error: emitter 'directional' has both 'direction' and 'to_world' [one of them]"));
+  EXPECT_THAT(compile_kind("directional", R"(<rgb name="irradiance" value="-1, 0, 0"/>)").messages(),
+              ElementsAre("error: 'irradiance' is (-1, 0, 0) [components of at least 0]"));
+  EXPECT_THAT(compile_kind("directional", R"(<float name="radiance" value="1"/>)").messages(),
+              ElementsAre("error: unused parameter 'radiance' of emitter 'directional', did you mean 'irradiance'? "
+                          "[direction, irradiance, to_world]"));
+}
+
+TEST(ProjectorEmitter, HasScaleAndTheCamerasFieldOfView) {
+  const Compiled c = compile_kind("projector", R"(<float name="fov" value="90"/><float name="scale" value="2"/>)"
+                                               R"(<rgb name="irradiance" value="1, 0.5, 0"/>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const LightRecord& light = c.tables().lights.at(0);
+  EXPECT_EQ(light.kind, LightKind::projector);
+  const float pi2 = static_cast<float>(2 * std::numbers::pi);
+  EXPECT_THAT(light.emission, ElementsAre(pi2, pi2 / 2, 0));
+  EXPECT_THAT(parameters_of(c, 3), ElementsAre(FloatNear(1, 1e-6f), FloatNear(1, 1e-6f), 0));
+}
+
+TEST(ProjectorEmitter, TakesItsShapeFromTheTexture) {
+  const Compiled c = compile_kind("projector", R"(<float name="fov" value="90"/><texture name="irradiance")" + kSlide);
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const auto p = parameters_of(c, 3);
+  EXPECT_FLOAT_EQ(p[0], 1);
+  EXPECT_FLOAT_EQ(p[1], 0.5f);
+  EXPECT_EQ(texture_kind(word(p[2])), TextureKind::bitmap);
+  EXPECT_FLOAT_EQ(c.tables().lights.at(0).emission[1], static_cast<float>(std::numbers::pi));
+}
+
+TEST(ProjectorEmitter, RefusesWhatMakesNoSense) {
+  EXPECT_THAT(compile_kind("projector", R"(<float name="scale" value="-1"/>)").messages(),
+              ElementsAre("error: 'scale' is -1 [a number of at least 0]"));
+  EXPECT_THAT(compile_kind("projector", R"(<transform name="to_world"><scale value="2"/></transform>)").messages(),
+              ElementsAre("error: 'to_world' of emitter 'projector' scales [translations, rotations and lookat]"));
+  EXPECT_THAT(compile_kind("projector", R"(<float name="fov" value="180"/>)").messages(),
+              ElementsAre("error: 'fov' is 180 [a number above 0 and below 180]"));
+  EXPECT_THAT(compile_kind("projector", R"(<float name="width" value="1"/>)").messages(),
+              ElementsAre("error: unused parameter 'width' of emitter 'projector' "
+                          "[focal_length, fov, fov_axis, irradiance, scale, to_world]"));
+}
+
+TEST(EnvmapEmitter, SurroundsTheScene) {
+  const Compiled c =
+      compile_kind("envmap", R"(<string name="filename" value="map.hdr"/><float name="scale" value="3"/>)"
+                             R"(<boolean name="mis_compensation" value="true"/>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(c.tables().lights.at(0).kind, LightKind::envmap);
+  EXPECT_EQ(c.tables().environment, 0u);
+  EXPECT_THAT(c.tables().lights.at(0).emission, ElementsAre(3, 3, 3));
+}
+
+TEST(EnvmapEmitter, RefusesWhatMakesNoSense) {
+  EXPECT_THAT(
+      compile_kind("envmap", "").messages(),
+      ElementsAre("error: emitter 'envmap' needs a parameter 'filename' [<string name=\"filename\" value=\"...\"/>]"));
+  EXPECT_THAT(compile_kind("envmap", R"(<string name="filename" value="tiny.hdr"/>)").messages(),
+              ElementsAre("error: the image has 2 x 2 pixels [at least 2 x 3]"));
+  EXPECT_THAT(
+      compile_kind("envmap", R"(<string name="filename" value="map.hdr"/><float name="scale" value="-1"/>)").messages(),
+      ElementsAre("error: 'scale' is -1 [a number of at least 0]"));
+  EXPECT_THAT(
+      compile_kind("envmap", R"(<string name="filename" value="map.hdr"/>)"
+                             R"(<transform name="to_world"><scale x="2"/></transform>)")
+          .messages(),
+      ElementsAre(
+          "error: 'to_world' of emitter 'envmap' distorts [translations, rotations and scales with one value]"));
+  EXPECT_THAT(
+      compile_kind("envmap", R"(<string name="filename" value="map.hdr"/><float name="gamma" value="1"/>)").messages(),
+      ElementsAre("error: unused parameter 'gamma' of emitter 'envmap' [filename, mis_compensation, scale, to_world]"));
+  const std::string map = R"(<emitter type="envmap"><string name="filename" value="map.hdr"/></emitter>)";
+  EXPECT_THAT(compile(map + map).messages(),
+              ElementsAre("error: the scene has more than one environment [one emitter that surrounds the scene]"));
+}
+
+TEST(Emitters, ThatAreNoSurfacesCannotBelongToAShape) {
+  for (const auto& [kind, why] : {std::pair("spot", "has no surface"),
+                                  {"projector", "has no surface"},
+                                  {"directional", "comes from infinitely far away"},
+                                  {"constant", "surrounds the scene"}}) {
+    EXPECT_THAT(
+        compile_elements(kSensor + R"(<shape type="sphere"><emitter type=")" + kind + R"("/></shape>)").messages(),
+        ElementsAre(std::string("error: emitter '") + kind + "' " + why + " and cannot belong to a shape [area]"));
+  }
+}
+
+TEST(DirectionalAreaEmitter, SaysThatNothingFindsIt) {
+  const Compiled c = compile_elements(
+      kSensor + kEmitter +
+      R"(<shape type="rectangle"><emitter type="directionalarea"><float name="radiance" value="2"/></emitter></shape>)");
+  EXPECT_THAT(c.messages(),
+              ElementsAre("warning: the light of emitter 'directionalarea' cannot be found by paths from the "
+                          "camera: it adds nothing to the image"));
+  EXPECT_EQ(c.tables().lights.size(), 1u);
+  EXPECT_THAT(compile_kind("directionalarea", "").messages(),
+              ElementsAre("error: emitter 'directionalarea' stands outside of a shape "
+                          "[a directionalarea emitter inside of the shape that shines]"));
+  EXPECT_THAT(
+      compile_elements(
+          kSensor + kEmitter +
+          R"(<shape type="rectangle"><emitter type="directionalarea"><float name="power" value="2"/></emitter></shape>)")
+          .messages(),
+      ::testing::Contains("error: unused parameter 'power' of emitter 'directionalarea' [radiance]"));
+}
+
+// --- textured surfaces -----------------------------------------------------------------------------------------------
+
+TEST(TexturedAreaEmitter, ARectangleIsOneLightWithItsCoordinates) {
+  const Compiled c = compile("<shape type=\"rectangle\"><emitter type=\"area\"><texture name=\"radiance\"" + kSlide +
+                             "</emitter></shape>");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const LightRecord& light = c.tables().lights.at(0);
+  EXPECT_EQ(light.kind, LightKind::parallelogram);
+  EXPECT_THAT(light.emission, ElementsAre(1, 2, 0.5f));
+  const auto p = parameters_of(c, 9);
+  EXPECT_EQ(texture_kind(word(p[0])), TextureKind::bitmap);
+  // The rectangle's coordinates go from 0 to 1 while its corners go from -1 to 1.
+  for (int axis = 0; axis < 2; ++axis) {
+    EXPECT_FLOAT_EQ(p[std::size_t(1 + axis)], (light.origin[axis] + 1) / 2);
+    EXPECT_FLOAT_EQ(p[std::size_t(3 + axis)], light.edge1[axis] / 2);
+    EXPECT_FLOAT_EQ(p[std::size_t(5 + axis)], light.edge2[axis] / 2);
+  }
+}
+
+TEST(TexturedAreaEmitter, TrianglesOfOtherMapsStayApart) {
+  const auto lights = [](const std::string& coordinates, const char* faces) {
+    const Compiled c = compile_elements(
+        kSensor +
+            R"(<shape type="obj"><string name="filename" value="a.obj"/><emitter type="area"><texture name="radiance")" +
+            kSlide + "</emitter></shape>",
+        {{"slide.hdr", kImages.at("slide.hdr")},
+         {"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + coordinates + faces}});
+    EXPECT_THAT(c.messages(), IsEmpty());
+    return c.tables().lights.size();
+  };
+  const char* kMapped = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+  EXPECT_EQ(lights("vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n", kMapped), 1u);
+  EXPECT_EQ(lights("vt 0 0\nvt 1 0\nvt 1 1\nvt 0.1 1\n", kMapped), 2u);  // bent across the diagonal
+  EXPECT_EQ(lights("vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0.5 0\n", "f 1/1 2/2 3/3\nf 1/5 3/3 4/4\n"), 2u);  // a seam
+  EXPECT_EQ(lights("", "f 1 2 3\nf 1 3 4\n"), 2u);  // barycentric ones
+}
+
+TEST(TexturedAreaEmitter, RefusesNegativeLight) {
+  EXPECT_THAT(compile(R"(<shape type="rectangle"><emitter type="area"><texture name="radiance" type="checkerboard">)"
+                      R"(<rgb name="color0" value="-1, 0, 0"/></texture></emitter></shape>)")
+                  .messages(),
+              ::testing::Not(IsEmpty()));
+}
+
+}  // namespace
+}  // namespace norrsken::testing

@@ -1,0 +1,151 @@
+// envmap: an image in latitude-longitude format around the scene.
+//
+// Parameters
+//   filename          string (required): PNG, JPEG, BMP, TGA, EXR or HDR, at least 2 x 3 pixels
+//   scale             number, at least 0 (default 1): factor on the image's radiance
+//   to_world          transform that keeps shapes (default identity). The local y axis is up, where the image's first
+//                     row is; its middle column is at -z, and columns to the right of it are towards +x
+//   mis_compensation  boolean: a way of sampling in Mitsuba; accepted and without effect
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "color/srgb.h"
+#include "compile/field_of_view.h"
+#include "compile/plugins.h"
+#include "light/light_host.h"
+
+namespace norrsken {
+namespace {
+
+constexpr std::size_t kMaxTexels = std::size_t{1} << 31;
+
+/// Writes what EnvmapEnvironment::Distribution says, of cells with these weights; evenly if none has any.
+void write_distribution(std::span<const double> weights, std::uint32_t guide_size, float* out) {
+  const std::size_t cells = weights.size();
+  double total = 0;
+  for (const double w : weights) total += w;
+  double sum = 0;
+  for (std::size_t i = 0; i < cells; ++i) {
+    out[i] = static_cast<float>(sum);
+    sum += total > 0 ? weights[i] / total : 1.0 / static_cast<double>(cells);
+  }
+  // What rounding leaves at the end belongs to the last cell with a weight: one without must never be found.
+  std::size_t last = cells;
+  while (total > 0 && last > 1 && weights[last - 1] <= 0) --last;
+  std::fill(out + last, out + cells + 1, 1.0f);
+  std::uint32_t cell = 0;
+  for (std::uint32_t k = 0; k <= guide_size; ++k) {
+    const float u = static_cast<float>(k) / static_cast<float>(guide_size);
+    while (cell + 1 < last && out[cell + 1] <= u) ++cell;
+    out[cells + 1 + k] = std::bit_cast<float>(cell);
+  }
+}
+
+/// The image's texels as 3 floats each; their offset.
+std::uint32_t float_texels(const StoredImage& image, std::vector<float>& texels) {
+  if (image.stride == 3) return image.texels;
+  const auto offset = static_cast<std::uint32_t>(texels.size());
+  const std::size_t count = std::size_t{image.width} * image.height;
+  texels.reserve(offset + 3 * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float value = texels[image.texels + i];
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      texels.push_back(image.stride == 1 ? value
+                                         : texels[image.table + (std::bit_cast<std::uint32_t>(value) >> 8 * c & 255)]);
+    }
+  }
+  return offset;
+}
+
+/// Writes the distributions and the kernel's parameters; returns the mean radiance over all directions.
+glm::dvec3 write_map(const StoredImage& image, SceneTables& tables, ParameterBlock& block) {
+  auto& texels = tables.texels;
+  const std::uint32_t first = float_texels(image, texels);
+  const std::size_t width = image.width, rows = image.height - std::size_t{1};
+  const auto row_guide = static_cast<std::uint32_t>(std::bit_floor(rows)), column_guide = std::bit_floor(image.width);
+  const std::size_t columns_offset = rows + 1 + row_guide + 1, stride = width + 1 + column_guide + 1;
+  const auto offset = static_cast<std::uint32_t>(texels.size());
+  texels.resize(texels.size() + columns_offset + rows * stride);
+
+  glm::dvec3 total(0);
+  std::vector<double> above(width), below(width), patches(width), row_weights(rows);
+  for (std::size_t y = 0; y <= rows; ++y) {
+    const double last = static_cast<double>(rows);
+    const double sine = std::sin(std::clamp(static_cast<double>(y), 0.25, last - 0.25) * std::numbers::pi / last);
+    above.swap(below);
+    for (std::size_t x = 0; x < width; ++x) {
+      const float* texel = &texels[first + 3 * (y * width + x)];
+      const glm::dvec3 color(texel[0], texel[1], texel[2]);
+      below[x] = std::max(luminance(color.r, color.g, color.b), 0.0) * sine;
+      total += color * sine * (y == 0 || y == rows ? 0.5 : 1.0);
+    }
+    if (y == 0) continue;
+    double sum = 0;
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t next = x + 1 < width ? x + 1 : 0;
+      patches[x] = (above[x] + above[next] + below[x] + below[next]) / 4;
+      sum += patches[x];
+    }
+    row_weights[y - 1] = sum;
+    write_distribution(patches, column_guide, &texels[offset + columns_offset + (y - 1) * stride]);
+  }
+  write_distribution(row_weights, row_guide, &texels[offset]);
+
+  double weight = 0;
+  for (const double w : row_weights) weight += w;
+  const double patch_count = static_cast<double>(width) * static_cast<double>(rows);
+  block.add_word(first).add_word(offset).add_word(static_cast<std::uint32_t>(columns_offset));
+  block.add_word(static_cast<std::uint32_t>(rows)).add_word(row_guide).add_word(image.width).add_word(column_guide);
+  block.add(weight > 0 ? patch_count / weight / (2 * std::numbers::pi * std::numbers::pi) : 0);
+  return total / patch_count * (std::numbers::pi / 2);
+}
+
+}  // namespace
+
+void compile_emitter_envmap(Parameters& p, Builder& builder, std::uint32_t shape) {
+  refuse_shape(p, shape, "surrounds the scene");
+  const std::string filename = p.file("filename");
+  const double scale = p.number("scale", 1, 0, kMaxEmission);
+  const glm::dmat4 to_world = p.transform("to_world");
+  p.boolean("mis_compensation", false);
+  glm::dmat3 axes(to_world);
+  axes /= glm::length(axes[0]);
+  if (!keeps_lengths(axes)) {
+    p.error("to_world", "'to_world' of emitter 'envmap' distorts", "translations, rotations and scales with one value");
+  }
+  if (filename.empty()) return;
+  const std::optional<StoredImage> image = builder.images().load(filename, false, p.where("filename"));
+  if (!image) return;
+  const std::size_t pixels = std::size_t{image->width} * image->height;
+  if (image->width < 2 || image->height < 3) {
+    p.error("filename", fmt::format("the image has {} x {} pixels", image->width, image->height), "at least 2 x 3");
+    return;
+  }
+  if (builder.tables().texels.size() + 6 * pixels >= kMaxTexels) {
+    p.error("filename", "the scene's images are too many or too large", fmt::format("{} texels in all", kMaxTexels));
+    return;
+  }
+  if (image->max * scale > kMaxEmission) {
+    p.error("filename", fmt::format("the image's radiance is up to {:g}", image->max * scale),
+            fmt::format("radiance up to {:g}", kMaxEmission));
+    return;
+  }
+
+  ParameterBlock block;
+  const glm::dvec3 mean = scale * write_map(*image, builder.tables(), block);
+  LightRecord light{};
+  light.kind = LightKind::envmap;
+  set_values(light.emission, glm::dvec3(scale));
+  set_axes(light, glm::transpose(axes));
+  light.parameters = builder.add_parameters(block.values());
+  builder.add_environment(p.node(), light, environment_power(glm::max(mean, glm::dvec3(0))));
+  builder.describe(p.node(), fmt::format("{} x {}, mean radiance {:.6g} {:.6g} {:.6g}", image->width, image->height,
+                                         mean.r, mean.g, mean.b));
+}
+
+}  // namespace norrsken

@@ -1,0 +1,41 @@
+#include "light/light_host.h"
+
+#include <fmt/format.h>
+
+#include <glm/matrix.hpp>
+
+namespace norrsken {
+
+void set_values(float (&out)[3], const glm::dvec3& v) {
+  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+}
+
+void set_axes(LightRecord& light, const glm::dmat3& local_from_world) {
+  const glm::dmat3 rows = glm::transpose(local_from_world);
+  set_values(light.edge1, rows[0]);
+  set_values(light.edge2, rows[1]);
+  set_values(light.normal, rows[2]);
+}
+
+void refuse_shape(Parameters& p, std::uint32_t shape, const char* reason) {
+  if (shape == kNone) return;
+  p.diagnostics().error(p.node().plugin_location,
+                        fmt::format("emitter '{}' {} and cannot belong to a shape", p.node().plugin, reason), "area");
+}
+
+std::optional<Texture> slide_texture(Parameters& p, Builder& builder, std::string_view name) {
+  const Node::Child* child = p.texture(name);
+  if (!child) return std::nullopt;
+  const Texture texture = builder.texture(*child->node);
+  if (texture_kind(texture.word) == TextureKind::mesh_attribute) {
+    p.error(name, fmt::format("'{}' is an attribute of meshes", name), "a texture that needs no mesh, such as bitmap");
+    return Texture{};
+  }
+  if (texture.min < 0) {
+    p.error(name, fmt::format("'{}' has values from {:g} to {:g}", name, texture.min, texture.max),
+            "a texture with values of at least 0");
+  }
+  return texture;
+}
+
+}  // namespace norrsken

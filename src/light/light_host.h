@@ -1,0 +1,21 @@
+// What emitters' host files share.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+
+#include "compile/builder.h"
+
+namespace norrsken {
+
+void set_values(float (&out)[3], const glm::dvec3& v);
+
+/// The local axes of an emitter as rows: what takes directions of the world into its space.
+void set_axes(LightRecord& light, const glm::dmat3& local_from_world);
+
+/// A complaint if the emitter stands inside of a shape; `reason` is why it has no place there.
+void refuse_shape(Parameters& p, std::uint32_t shape, const char* reason);
+
+/// The texture of parameter `name` that is thrown like a slide, if there is one; a complaint if only surfaces have it.
+std::optional<Texture> slide_texture(Parameters& p, Builder& builder, std::string_view name);
+
+}  // namespace norrsken

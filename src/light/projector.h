@@ -1,0 +1,61 @@
+// Model       A perspective camera run backwards: a point that throws a picture into its field of view. The picture holds
+//             pi times the irradiance of the plane at distance 1, so that a white wall there has the picture's radiance,
+//             and a picture of one colour lights a wall evenly.
+// Parameters  position and direction (by to_world: local origin and +z, +y up and +x left), irradiance (linear sRGB, a
+//             texture), scale, fov
+// Measure     delta
+// Source      Mitsuba 3, emitter `projector`
+// Departures  none
+#pragma once
+
+#include "light/emit.h"
+#include "texture/parameter_reader.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// edge1, edge2 and normal are the local axes; `emission` is pi times the scale, with the irradiance where that is of
+/// one colour. Parameters: half the picture's width and height at distance 1, the texture's word.
+struct ProjectorLight {
+  static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f,
+                                            Mask active) {
+    const Float half(0.5f), one(1.0f);
+    const auto parameter = [&](int k) { return gather(scene.parameters + k, light.parameters, active); };
+    const Vec3f from_light = reference - light.origin;
+    const Float z = dot(light.normal, from_light);
+    const Float u = fnma(half, dot(light.edge1, from_light) / (z * parameter(0)), half);
+    const Float v = fnma(half, dot(light.edge2, from_light) / (z * parameter(1)), half);
+    const Mask lit = (z > Float(0.0f)) & (u >= Float(0.0f)) & (u <= one) & (v >= Float(0.0f)) & (v <= one);
+    Vec3f irradiance = light.emission;
+    if (scene.texture_kinds != 0) {
+      const UInt texture = gather_uint(scene.parameters + 2, light.parameters, active);
+      const Mask textured = active & lit & (texture != UInt(0u));
+      if (any(textured)) {
+        const TexturePoint point{{u, v}, {}, {}, {}};
+        irradiance = select(textured, irradiance * evaluate_texture(scene, texture, point, textured), irradiance);
+      }
+    }
+    // 1 / (d^2 cos^3), the inverse of the area at distance 1 that a unit of solid angle covers, over d^2.
+    const Float distance = sqrt(dot(from_light, from_light));
+    return {light.origin, one, irradiance * (distance / (z * z * z)), lit};
+  }
+
+  /// A direction found by other means never meets a point.
+  static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light&, const Vec3f&, const Vec3f&, Float, Mask) {
+    return Float(0.0f);
+  }
+
+  /// Uniform over the picture.
+  static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f, Vec2f direction,
+                                         Mask active) {
+    const Float half_width = gather(scene.parameters, light.parameters, active);
+    const Float half_height = gather(scene.parameters + 1, light.parameters, active);
+    const Vec3f local{fms(direction.x, half_width + half_width, half_width),
+                      fms(direction.y, half_height + half_height, half_height), Float(1.0f)};
+    const Float distance2 = dot(local, local), distance = sqrt(distance2);
+    const Float pdf_area = Float(0.25f) / (half_width * half_height);
+    return emit_from_axes<ProjectorLight>(scene, light, local,
+                                          pdf_sa_from_pdf_area(pdf_area, distance2, Float(1.0f) / distance), active);
+  }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

@@ -1,0 +1,56 @@
+// Model       A point that shines into a cone around a direction, perhaps through a picture: full intensity in a beam
+//             around the axis, from there falling linearly with the angle to nothing at the cone's edge.
+// Parameters  position and direction (by to_world: local origin and +z), intensity (linear sRGB, W / sr), cutoff and
+//             beam (radians off the axis), texture: it fills the square around the cone's base
+// Measure     delta
+// Source      Mitsuba 3, emitter `spot`
+// Departures  none
+#pragma once
+
+#include "light/emit.h"
+#include "math/special.h"
+#include "texture/parameter_reader.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// edge1, edge2 and normal are the local axes as rows of the matrix that takes directions of the world there.
+/// Parameters: cutoff, cos(cutoff), cos(beam), 1 / (cutoff - beam), 1 / tan(cutoff), the texture's word.
+struct SpotLight {
+  static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f,
+                                            Mask active) {
+    const auto parameter = [&](int k) { return gather(scene.parameters + k, light.parameters, active); };
+    const Vec3f from_light = reference - light.origin;
+    const Vec3f local{dot(light.edge1, from_light), dot(light.edge2, from_light), dot(light.normal, from_light)};
+    const Float cos_theta = local.z / sqrt(dot(local, local));
+    const Float slope = (parameter(0) - acos(cos_theta)) * parameter(3);
+    const Float falloff = select(cos_theta >= parameter(2), Float(1.0f), slope);
+    const Float inverse_square = Float(1.0f) / dot(from_light, from_light);
+    const Mask lit = (cos_theta > parameter(1)) & (falloff > Float(0.0f)) & (inverse_square < Float(kInf));
+    Vec3f intensity = light.emission * falloff;
+    if (scene.texture_kinds != 0) {
+      const UInt texture = gather_uint(scene.parameters + 5, light.parameters, active);
+      const Mask textured = active & lit & (texture != UInt(0u));
+      if (any(textured)) {
+        const Float half = Float(0.5f) * parameter(4) / local.z;
+        const TexturePoint point{{fma(local.x, half, Float(0.5f)), fma(local.y, half, Float(0.5f))}, {}, {}, {}};
+        intensity = select(textured, intensity * evaluate_texture(scene, texture, point, textured), intensity);
+      }
+    }
+    return {light.origin, Float(1.0f), intensity * inverse_square, lit};
+  }
+
+  /// A direction found by other means never meets a point.
+  static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light&, const Vec3f&, const Vec3f&, Float, Mask) {
+    return Float(0.0f);
+  }
+
+  /// Uniform over the cone.
+  static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f, Vec2f direction,
+                                         Mask active) {
+    const Float one_minus_cos = Float(1.0f) - gather(scene.parameters + 1, light.parameters, active);
+    return emit_from_axes<SpotLight>(scene, light, warp_to_cone(direction, one_minus_cos), cone_pdf_sa(one_minus_cos),
+                                     active);
+  }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA
