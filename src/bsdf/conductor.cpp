@@ -8,6 +8,10 @@
 //   specular_reflectance  color or texture, 0 to 1 (default 1): factor on the reflected light
 // Stored: specular reflectance, eta, k (colours). A specular reflectance of exactly 0 is stored as `absorb`.
 // Side: the front reflects, the back is black; `twosided` makes both reflect.
+//
+// Materials by name: a-C, Ag, Al, AlAs, AlSb, Au, Be, Cr, CsI, Cu, Cu2O, CuO, d-C, Hg, HgTe, Ir, K, Li, MgO, Mo, Na_palik,
+// Nb, Ni_palik, Rh, Se, Se-e, SiC, SnTe, Ta, Te, Te-e, ThF4, TiC, TiN, TiO2, TiO2-e, V_palik, VC, VN, W; most of them also
+// with _palik behind, as in Mitsuba.
 #include "bsdf/conductor_host.h"
 #include "compile/plugins.h"
 

@@ -6,6 +6,10 @@
 //   specular_reflectance, specular_transmittance  color or texture, 0 to 1 (default 1): factors on either part
 // Stored: specular reflectance, specular transmittance (colours), relative index of refraction.
 // Side: both; the back has the inverse index.
+//
+// Materials by name, in any case: vacuum, helium, hydrogen, air, carbon dioxide; water, acetone, ethanol, carbon
+// tetrachloride, glycerol, benzene, silicone oil, bromine; water ice, fused quartz, pyrex, acrylic glass, polypropylene,
+// bk7, sodium chloride, amber, pet, diamond.
 #include "bsdf/dielectric_host.h"
 #include "compile/plugins.h"
 

@@ -6,7 +6,8 @@
 // Measure     pdf_sa, from the normals that are visible
 // Source      Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, equation 20; see
 //             microfacet.h
-// Departures  roughness below 1e-4 counts as 1e-4, as in Mitsuba
+// Departures  roughness below 1e-4 counts as 1e-4, and Beckmann's masking is Walter's rational approximation, both as in
+//             Mitsuba; the density, though, has the exact masking of what is sampled
 #pragma once
 
 #include "bsdf/bsdf.h"
