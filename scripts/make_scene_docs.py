@@ -23,7 +23,7 @@ SCENES = ROOT / "docs/plugin_scenes"
 # Heading, folder, element of the scene file, lists that name its plugins, header with the parameters of the whole family.
 FAMILIES = [
     ("Integrators", "integrator", "integrator", ["plugins.def"], "integrator_host.h"),
-    ("Sensors", "camera", "sensor", ["plugins.def"], None),
+    ("Sensors", "camera", "sensor", ["list.def"], None),
     ("Films", "film", "film", ["plugins.def"], None),
     ("Reconstruction filters", "rfilter", "rfilter", ["plugins.def"], None),
     ("Samplers", "sampler", "sampler", ["plugins.def"], "sampler_host.h"),

@@ -18,9 +18,12 @@ struct Channel {
 
 /// A stack of channels of one size. Radiance is linear sRGB.
 struct Image {
+  enum class Color { rgb, xyz, luminance };
   int width = 0;
   int height = 0;
   std::vector<Channel> channels;
+  Color exr_color = Color::rgb;  ///< what an EXR holds in place of R, G, B: X, Y, Z or Y
+  bool exr_half = false;         ///< an EXR holds colour and A as 16-bit floats, other channels as 32-bit ones
   std::map<std::string, std::string> metadata;  ///< free text that EXR and PNG headers carry
 
   const Channel* find(std::string_view name) const;
@@ -41,7 +44,7 @@ struct [[nodiscard]] IoStatus {
   explicit operator bool() const { return error.empty(); }
 };
 
-/// Writes by file extension: .exr (every channel, float32), .png (8 bit) and .jpg (tone-mapped R, G, B).
+/// Writes by file extension: .exr (every channel; float32, unless the image says otherwise), .png (8 bit) and .jpg (tone-mapped R, G, B).
 /// The file is written under a temporary name in the same folder and renamed, so a reader never sees half of it; on
 /// an error a file that was there before stays. In PNG and JPEG NaN and what is below 0 are black, infinity is white.
 /// Errors: unknown extension, unwritable folder, full disk, size beyond the format, no R, G, B for PNG or JPEG.

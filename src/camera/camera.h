@@ -26,10 +26,14 @@ NORRSKEN_INLINE Vec3f film_point(const CameraRecord& camera, Float px, Float py)
   return fma(broadcast(camera.du), px, fma(broadcast(camera.dv), py, broadcast(camera.base)));
 }
 
+/// How far along a ray behind its beginning the camera is.
+NORRSKEN_INLINE Float distance_to_near_plane(const CameraRecord& camera, const Vec3f& direction) {
+  return Float(camera.near_clip) / dot(direction, broadcast(camera.forward));
+}
+
 /// The ray through `origin`, begun where it meets the near plane.
 NORRSKEN_INLINE CameraRay start_at_near_plane(const CameraRecord& camera, const Vec3f& origin, const Vec3f& direction) {
-  const Float to_near_plane = Float(camera.near_clip) / dot(direction, broadcast(camera.forward));
-  return {fma(direction, to_near_plane, origin), direction};
+  return {fma(direction, distance_to_near_plane(camera, direction), origin), direction};
 }
 
 /// How far along a ray from the near plane the far plane is.

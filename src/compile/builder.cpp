@@ -18,6 +18,8 @@ namespace {
 
 /// Adapters within adapters: far more than any scene needs, far fewer than the stack holds.
 constexpr int kMaxBsdfDepth = 64;
+/// The same of integrators.
+constexpr int kMaxIntegratorDepth = 8;
 
 template <class Container>
 std::uint64_t bytes_of(const Container& container) {
@@ -141,6 +143,22 @@ void Builder::add_environment(const Node& node, const LightRecord& light, const 
   tables().environment = add_light(light, power);
 }
 
+IntegratorSettings Builder::integrator(const Node& node) {
+  IntegratorSettings settings;
+  if (integrator_depth_ == kMaxIntegratorDepth) {
+    diagnostics_.error(node.location, fmt::format("integrators are nested more than {} deep", kMaxIntegratorDepth),
+                       fmt::format("up to {} inside each other", kMaxIntegratorDepth));
+  } else if (const auto* plugin = find_plugin(integrator_plugins(), node, diagnostics_)) {
+    ++integrator_depth_;
+    Parameters p = parameters(node);
+    settings = plugin->compile(p, *this);
+    p.finish();
+    describe(node, {});
+    --integrator_depth_;
+  }
+  return settings;
+}
+
 FilterRecord Builder::rfilter(Parameters& film) {
   Node default_filter;
   default_filter.kind = "rfilter";
@@ -176,11 +194,11 @@ auto Builder::compile_chosen(const Node::Child* child, const char* kind, const c
     node.plugin = *replacement;
     node.plugin_location = {};
   }
-  decltype(table[0].compile(std::declval<Parameters&>())) settings;
+  decltype(table[0].compile(std::declval<Parameters&>(), *this)) settings;
   plugin_name = node.plugin;
   if (const auto* plugin = find_plugin(table, node, diagnostics_)) {
     Parameters p = parameters(node);
-    settings = plugin->compile(p);
+    settings = plugin->compile(p, *this);
     if (!replaced) p.finish();
     describe(node, {});
   }

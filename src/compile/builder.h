@@ -129,6 +129,10 @@ class Builder {
   /// The group of shapes that a `shapegroup` node is; one that several instances refer to is compiled once.
   std::uint32_t shape_group(const Node& node);
   GeometryBuilder& geometry() { return geometry_; }
+  /// The settings of an integrator inside another one.
+  IntegratorSettings integrator(const Node& node);
+  /// What is asked for besides the image.
+  SceneLayers& layers() { return scene_.layers; }
   /// The filter of a film node; Mitsuba's, gaussian, if it names none.
   FilterRecord rfilter(Parameters& film);
   /// A line for `norrsken info`.
@@ -166,6 +170,7 @@ class Builder {
   std::map<const Node*, Texture> textures_;
   std::optional<Material> default_material_;
   int bsdf_depth_ = 0;
+  int integrator_depth_ = 0;
   std::vector<LightPower> light_powers_;
 };
 

@@ -7,6 +7,7 @@
 #include "norrsken/scene.h"
 #include "scene/description.h"
 #include "scene/file_system.h"
+#include "tables/layers.h"
 #include "tables/scene_tables.h"
 
 namespace norrsken {
@@ -14,6 +15,7 @@ namespace norrsken {
 /// A scene ready to be rendered, with the names that its users know its parts by.
 struct LoadedScene {
   SceneTables tables;
+  SceneLayers layers;
   SceneInfo info;  ///< all but `accelerator`, which is chosen when rendering
 };
 

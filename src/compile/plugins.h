@@ -20,9 +20,9 @@ using CompileShape = std::optional<ShapeGeometry>(Parameters&, Builder&);
 using CompileEmitter = void(Parameters&, Builder&, std::uint32_t shape);
 using CompileSensor = CameraRecord(Parameters&, Builder&, const FilmSettings&);
 using CompileFilm = FilmSettings(Parameters&, Builder&);
-using CompileSampler = SamplerSettings(Parameters&);
+using CompileSampler = SamplerSettings(Parameters&, Builder&);
 using CompileRfilter = FilterRecord(Parameters&, Builder&);
-using CompileIntegrator = IntegratorSettings(Parameters&);
+using CompileIntegrator = IntegratorSettings(Parameters&, Builder&);
 
 #define NORRSKEN_BSDF(kind, Model) CompileBsdf compile_bsdf_##kind;
 #include "bsdf/list.def"

@@ -1,17 +1,18 @@
 #include "film/film.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "color/srgb.h"
 #include "tables/wave_types.h"
 
 namespace norrsken {
 namespace {
 
-constexpr std::uint32_t kFeaturePlanes = 8;
-constexpr const char* kFeatureNames[kFeaturePlanes] = {"depth.Z",  "normal.X", "normal.Y", "normal.Z",
-                                                       "albedo.R", "albedo.G", "albedo.B", "id"};
 constexpr const char* kColors[3] = {"R", "G", "B"};
 
 std::uint32_t plane_count(SamplerKind sampler) { return sampler == SamplerKind::independent ? 6 : 3 * kReplicates; }
@@ -20,6 +21,14 @@ std::uint32_t plane_count(SamplerKind sampler) { return sampler == SamplerKind::
 std::uint32_t replicate_count(std::uint32_t n, std::uint32_t r) { return (n + kReplicates - 1 - r) / kReplicates; }
 
 }  // namespace
+
+std::vector<FeatureLayer> standard_features() {
+  constexpr const char* kNames[] = {"depth.Z",  "normal.X", "normal.Y", "normal.Z",
+                                    "albedo.R", "albedo.G", "albedo.B", "id"};
+  std::vector<FeatureLayer> layers;
+  for (const char* name : kNames) layers.push_back({name, static_cast<Feature>(layers.size())});
+  return layers;
+}
 
 void FilmError::operator+=(const FilmError& other) {
   mean_sum += other.mean_sum;
@@ -33,19 +42,32 @@ double FilmError::relative() const {
   return std::sqrt(variance_sum / n) / (mean_sum / n);
 }
 
-Film::Film(const FilmSettings& settings, SamplerKind sampler, bool features)
-    : width_(static_cast<std::uint32_t>(settings.width)),
+Film::Film(const FilmSettings& settings, SamplerKind sampler, SceneLayers layers)
+    : settings_(settings),
+      width_(static_cast<std::uint32_t>(settings.width)),
       height_(static_cast<std::uint32_t>(settings.height)),
-      weighted_(settings.filter.kind != FilterKind::box),
-      sampler_(sampler) {
+      sampler_(sampler),
+      layers_(std::move(layers)) {
   const std::size_t pixels = static_cast<std::size_t>(width_) * height_;
   sums_.resize(pixels * plane_count(sampler));
   counts_.resize(pixels);
-  if (features) features_.resize(pixels * kFeaturePlanes);
+  if (!layers_.moments.empty()) moments_.resize(3 * pixels);
+  for (const FeatureLayer& layer : layers_.features) feature_mask_ |= 1u << layer.feature;
+  if (settings.has_alpha()) feature_mask_ |= 1u << kFeatureCoverage;
+  features_.resize(pixels * static_cast<std::size_t>(std::popcount(feature_mask_)));
 }
 
 FilmView Film::view() {
-  return {sums_.data(), counts_.data(), features_.empty() ? nullptr : features_.data(), width_, height_, weighted_};
+  FilmView view;
+  view.sums = sums_.data();
+  view.counts = counts_.data();
+  view.moments = moments_.empty() ? nullptr : moments_.data();
+  view.features = features_.empty() ? nullptr : features_.data();
+  view.feature_mask = feature_mask_;
+  view.width = width_;
+  view.height = height_;
+  view.weighted = settings_.filter.kind != FilterKind::box;
+  return view;
 }
 
 PixelEstimate Film::estimate(std::uint64_t pixel, int channel) const {
@@ -95,10 +117,14 @@ FilmError Film::error(const FilmRegion& region) const {
   return total;
 }
 
-Image Film::image(bool layers, std::uint32_t feature_samples) const {
+Image Film::image(bool statistics, std::uint32_t feature_samples) const {
   Image image;
   image.width = static_cast<int>(width_);
   image.height = static_cast<int>(height_);
+  image.exr_color = settings_.is_xyz()         ? Image::Color::xyz
+                    : settings_.is_luminance() ? Image::Color::luminance
+                                               : Image::Color::rgb;
+  image.exr_half = settings_.half_precision;
   const std::size_t pixels = counts_.size();
   const auto add = [&](const std::string& name) {
     image.channels.push_back({name, std::vector<float>(pixels)});
@@ -107,7 +133,7 @@ Image Film::image(bool layers, std::uint32_t feature_samples) const {
   std::array<std::size_t, 3> color{}, variance{}, error{};
   for (std::size_t c = 0; c < 3; ++c) color[c] = add(kColors[c]);
   std::size_t samples = 0;
-  if (layers) {
+  if (statistics) {
     samples = add("samples");
     for (std::size_t c = 0; c < 3; ++c) variance[c] = add(std::string("variance.") + kColors[c]);
     for (std::size_t c = 0; c < 3; ++c) error[c] = add(std::string("error.") + kColors[c]);
@@ -116,21 +142,68 @@ Image Film::image(bool layers, std::uint32_t feature_samples) const {
     for (std::size_t c = 0; c < 3; ++c) {
       const PixelEstimate e = estimate(i, static_cast<int>(c));
       image.channels[color[c]].values[i] = static_cast<float>(e.mean);
-      if (!layers) continue;
+      if (!statistics) continue;
       const double known = e.known ? e.variance : std::numeric_limits<double>::quiet_NaN();
       image.channels[variance[c]].values[i] = static_cast<float>(known);
       image.channels[error[c]].values[i] = static_cast<float>(std::sqrt(known));
     }
-    if (layers) image.channels[samples].values[i] = static_cast<float>(counts_[i] & ~kSomeDropped);
+    if (statistics) image.channels[samples].values[i] = static_cast<float>(counts_[i] & ~kSomeDropped);
   }
-  if (!features_.empty() && feature_samples > 0) {
-    for (std::uint32_t k = 0; k < kFeaturePlanes; ++k) {
-      std::vector<float>& values = image.channel(kFeatureNames[k]).values;
-      const float scale = k == 7 ? 1.0f : 1.0f / static_cast<float>(feature_samples);
-      for (std::size_t i = 0; i < pixels; ++i) values[i] = features_[k * pixels + i] * scale;
+  if (settings_.has_alpha()) add_alpha(image, feature_samples);
+  for (const std::string& name : layers_.image_copies) {
+    for (const char* channel : {"R", "G", "B", "A"}) {
+      if (const Channel* source = image.find(channel)) {
+        std::vector<float> values = source->values;
+        image.channel(name + "." + channel).values = std::move(values);
+      }
     }
   }
+  add_moments(image);
+  if (feature_samples > 0) add_features(image, feature_samples);
   return image;
+}
+
+std::vector<float> Film::feature(Feature feature, std::uint32_t samples) const {
+  const std::size_t pixels = counts_.size();
+  const auto plane = static_cast<std::size_t>(std::popcount(feature_mask_ & ((1u << feature) - 1)));
+  const double scale = (kDiscreteFeatures >> feature & 1u) != 0 ? 1.0 : 1.0 / samples;
+  std::vector<float> values(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) values[i] = static_cast<float>(features_[plane * pixels + i] * scale);
+  return values;
+}
+
+void Film::add_features(Image& image, std::uint32_t feature_samples) const {
+  for (const FeatureLayer& layer : layers_.features) {
+    image.channel(layer.name).values = feature(layer.feature, feature_samples);
+  }
+}
+
+void Film::add_alpha(Image& image, std::uint32_t feature_samples) const {
+  std::vector<float>& alpha = image.channel("A").values;
+  if (settings_.opaque) {
+    std::ranges::fill(alpha, 1.0f);
+  } else if (feature_samples > 0) {
+    alpha = feature(kFeatureCoverage, feature_samples);
+  }
+}
+
+void Film::add_moments(Image& image) const {
+  const std::size_t pixels = counts_.size();
+  for (const std::string& name : layers_.moments) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::string channel = name + "." + "XYZ"[k];
+      std::vector<float> first(pixels), second(pixels);
+      for (std::size_t i = 0; i < pixels; ++i) {
+        const std::uint32_t n = counts_[i] & ~kSomeDropped;
+        for (int c = 0; c < 3; ++c) {
+          first[i] += static_cast<float>(kXyzFromSrgb[k][static_cast<std::size_t>(c)] * estimate(i, c).mean);
+        }
+        if (n > 0) second[i] = static_cast<float>(moments_[k * pixels + i] / n);
+      }
+      image.channel(channel).values = std::move(first);
+      image.channel("m2_" + channel).values = std::move(second);
+    }
+  }
 }
 
 }  // namespace norrsken

@@ -8,6 +8,7 @@
 #include "film/splats.h"
 #include "norrsken/image.h"
 #include "tables/film_view.h"
+#include "tables/layers.h"
 #include "tables/scene_tables.h"
 
 namespace norrsken {
@@ -27,10 +28,13 @@ struct FilmError {
   double relative() const;
 };
 
+/// The layers of any scene's first hits: depth.Z, normal.X/Y/Z, albedo.R/G/B and id.
+std::vector<FeatureLayer> standard_features();
+
 /// Memory does not depend on the number of samples.
 class Film {
  public:
-  Film(const FilmSettings& settings, SamplerKind sampler, bool features);
+  Film(const FilmSettings& settings, SamplerKind sampler, SceneLayers layers = {});
 
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
@@ -43,19 +47,29 @@ class Film {
   PixelEstimate estimate(std::uint64_t pixel, int channel) const;
   FilmError error(const FilmRegion& region) const;
 
-  /// R, G, B; with `layers` also samples, variance.*, error.*, and the features divided by `feature_samples` if any.
-  Image image(bool layers, std::uint32_t feature_samples) const;
+  /// R, G, B, A if the film has alpha, and the layers that the film was made for, features divided by
+  /// `feature_samples`; with `statistics` also samples, variance.* and error.*.
+  Image image(bool statistics, std::uint32_t feature_samples) const;
 
  private:
   PixelEstimate estimate_samples(std::uint64_t pixel, int channel) const;
 
+  void add_features(Image& image, std::uint32_t feature_samples) const;
+  void add_moments(Image& image) const;
+  void add_alpha(Image& image, std::uint32_t feature_samples) const;
+  /// The mean of one feature over `samples` samples, pixel by pixel.
+  std::vector<float> feature(Feature feature, std::uint32_t samples) const;
+
+  FilmSettings settings_;
   std::uint32_t width_, height_;
-  bool weighted_;
   SamplerKind sampler_;
+  SceneLayers layers_;
+  std::uint32_t feature_mask_ = 0;
   // Tiles are a multiple of a cache line wide: aligned, two threads on neighbouring tiles never write to one line.
   AlignedVector<double> sums_;
   AlignedVector<std::uint32_t> counts_;
-  AlignedVector<float> features_;
+  AlignedVector<double> moments_;
+  AlignedVector<double> features_;
   Splats splats_;
 };
 

@@ -32,7 +32,7 @@ void add(Film& film, SamplerKind kind, std::size_t pixel, double value) {
 }
 
 TEST(Film, MeanAndVarianceOfTheMeanOfIndependentSamples) {
-  Film film(size(2, 1), SamplerKind::independent, false);
+  Film film(size(2, 1), SamplerKind::independent);
   for (const double x : {1.0, 2.0, 3.0, 6.0}) add(film, SamplerKind::independent, 1, x);
   const PixelEstimate e = film.estimate(1, 0);
   EXPECT_DOUBLE_EQ(e.mean, 3.0);
@@ -42,7 +42,7 @@ TEST(Film, MeanAndVarianceOfTheMeanOfIndependentSamples) {
 }
 
 TEST(Film, VarianceFromReplicates) {
-  Film film(size(1, 1), SamplerKind::sobol, false);
+  Film film(size(1, 1), SamplerKind::sobol);
   // Replicates with means 1, 2, 3, 6 of two samples each: the mean's variance is that of four independent estimates.
   for (const double x : {1.0, 2.0, 3.0, 6.0, 1.0, 2.0, 3.0, 6.0}) add(film, SamplerKind::sobol, 0, x);
   const PixelEstimate e = film.estimate(0, 2);
@@ -52,7 +52,7 @@ TEST(Film, VarianceFromReplicates) {
 
 TEST(Film, UnknownWithFewerThanTwoEstimates) {
   for (const SamplerKind kind : {SamplerKind::independent, SamplerKind::sobol}) {
-    Film film(size(1, 1), kind, false);
+    Film film(size(1, 1), kind);
     EXPECT_FALSE(film.estimate(0, 0).known);
     add(film, kind, 0, 5.0);
     EXPECT_DOUBLE_EQ(film.estimate(0, 0).mean, 5.0);
@@ -72,7 +72,7 @@ TEST(Film, VarianceIsUnbiased) {
   constexpr int kPixels = 20'000;
   for (const SamplerKind kind : {SamplerKind::independent, SamplerKind::sobol}) {
     for (const int samples : {2, 3, 4, 8, 16}) {
-      Film film(size(kPixels, 1), kind, false);
+      Film film(size(kPixels, 1), kind);
       std::mt19937 random(static_cast<unsigned>(samples));
       std::exponential_distribution<double> value(1.0);  // variance 1
       for (int i = 0; i < kPixels; ++i) {
@@ -87,7 +87,7 @@ TEST(Film, VarianceIsUnbiased) {
 }
 
 TEST(Film, RelativeErrorOfTheImage) {
-  Film film(size(2, 1), SamplerKind::independent, false);
+  Film film(size(2, 1), SamplerKind::independent);
   for (const double x : {1.0, 3.0}) add(film, SamplerKind::independent, 0, x);  // mean 2, variance of the mean 1
   for (const double x : {4.0, 4.0}) add(film, SamplerKind::independent, 1, x);  // mean 4, variance 0
   EXPECT_NEAR(film.error({0, 0, 2, 1}).relative(), std::sqrt(0.5) / 3.0, 1e-12);
@@ -97,11 +97,12 @@ TEST(Film, RelativeErrorOfTheImage) {
 }
 
 TEST(Film, LayersOnRequest) {
-  Film film(size(1, 1), SamplerKind::independent, true);
+  Film film(size(1, 1), SamplerKind::independent, {.features = standard_features(), .image_copies = {}, .moments = {}});
   for (const double x : {1.0, 3.0}) add(film, SamplerKind::independent, 0, x);
   EXPECT_EQ(film.image(false, 0).channels.size(), 3u);
-  film.view().features[0] = 12.0f;  // the sum of four depths
-  film.view().features[7] = 5.0f;
+  EXPECT_EQ(film.view().feature_mask, 0xffu);
+  film.view().features[0] = 12.0;  // the sum of four depths
+  film.view().features[7] = 5.0;
   const Image image = film.image(true, 4);
   EXPECT_EQ(image.find("samples")->values[0], 2.0f);
   EXPECT_NEAR(image.find("variance.G")->values[0], 1.0f, 1e-6f);

@@ -22,7 +22,7 @@ struct ByteImage {
 /// Each writes the whole file to `file` and returns what the format's library complains about, or nothing. Failures
 /// of the file itself show in `AtomicFile::commit`.
 
-/// Every channel as 32-bit float, ZIP-compressed, with sRGB chromaticities. OpenEXR stores channels sorted by name;
+/// Every channel as 32-bit float unless the image says otherwise, ZIP-compressed, with sRGB chromaticities. OpenEXR stores channels sorted by name;
 /// programs show R, G, B first.
 std::string encode_exr(AtomicFile& file, const Image& image);
 /// Tagged as sRGB; metadata become iTXt chunks.

@@ -143,7 +143,7 @@ TEST(Splats, AtTheEdgeAreDividedByWhatOfTheFilterIsOnTheFilm) {
 }
 
 TEST(Splats, AreAddedToTheFilmsSamples) {
-  Film film(film_of(5, 4), SamplerKind::independent, false);
+  Film film(film_of(5, 4), SamplerKind::independent);
   const FilmView view = film.view();
   // Pixel 7: two samples of 1 and 3 in red.
   view.counts[7] = 2;

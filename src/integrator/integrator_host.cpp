@@ -1,6 +1,7 @@
 #include "integrator/integrator_host.h"
 
 #include <limits>
+#include <utility>
 
 namespace norrsken {
 
@@ -19,9 +20,27 @@ IntegratorSettings read_path_lengths(Parameters& p) {
 
 IntegratorSettings read_integrator(Parameters& p) {
   IntegratorSettings settings = read_path_lengths(p);
-  settings.emitter_samples = static_cast<int>(p.integer("emitter_samples", 1, 1, 100000));
+  settings.emitter_samples = static_cast<int>(p.integer("emitter_samples", 1, 1, kMaxShadingSamples));
   settings.hide_emitters = p.boolean("hide_emitters", false);
   return settings;
+}
+
+NestedIntegrator read_nested_integrator(Parameters& p, Builder& builder) {
+  NestedIntegrator nested;
+  const Node::Child* child = p.child("integrator");
+  if (!child) return nested;
+  nested.plugin = child->node->plugin;
+  nested.has_name = !child->name.empty();
+  nested.name = nested.has_name ? child->name : "_arg_0";
+  SceneLayers before = std::exchange(builder.layers(), {});
+  nested.settings = builder.integrator(*child->node);
+  SceneLayers& layers = builder.layers();
+  for (FeatureLayer& layer : layers.features) layer.name = nested.name + "." + layer.name;
+  for (auto* names : {&layers.image_copies, &layers.moments}) {
+    for (std::string& name : *names) name = nested.name + "." + name;
+  }
+  for (FeatureLayer& layer : before.features) layers.features.push_back(std::move(layer));
+  return nested;
 }
 
 }  // namespace norrsken

@@ -52,6 +52,114 @@ TEST(IntegratorHost, DirectEndsAtDepthTwo) {
   EXPECT_EQ(compile_integrator(integrator("direct", integer("bounces", "0"))).tables().integrator.max_depth, 1);
 }
 
+TEST(IntegratorHost, DirectTakesNumbersOfSamples) {
+  const auto compile = [](const std::string& inside) { return compile_integrator(integrator("direct", inside)); };
+  const auto samples = [&](const std::string& inside) {
+    const IntegratorSettings settings = compile(inside).tables().integrator;
+    return std::pair(settings.emitter_samples, settings.bsdf_samples);
+  };
+  EXPECT_EQ(samples(""), std::pair(1, 1));
+  EXPECT_EQ(samples(integer("shading_samples", "3")), std::pair(3, 3));
+  EXPECT_EQ(samples(integer("emitter_samples", "0") + integer("bsdf_samples", "4")), std::pair(0, 4));
+  EXPECT_EQ(samples(integer("bsdf_samples", "0")), std::pair(1, 0));
+  EXPECT_THAT(compile(integer("emitter_samples", "0") + integer("bsdf_samples", "0")).messages(),
+              ElementsAre("error: 'emitter_samples' and 'bsdf_samples' are both 0 [at least one of them above 0]"));
+  EXPECT_THAT(compile(integer("shading_samples", "2") + integer("bsdf_samples", "1")).messages(),
+              ElementsAre("error: 'shading_samples' is given besides 'emitter_samples' or 'bsdf_samples' "
+                          "[shading_samples alone, or the other two]"));
+  EXPECT_THAT(compile(integer("bsdf_samples", "100001")).messages(),
+              ElementsAre("error: 'bsdf_samples' is 100001 [an integer from 0 to 100000]"));
+  EXPECT_THAT(compile(integer("samples", "1")).messages(),
+              ElementsAre("error: unused parameter 'samples' of integrator 'direct' [bounces, bsdf_samples, "
+                          "emitter_samples, hide_emitters, max_depth, rr_depth, shading_samples]"));
+}
+
+std::vector<std::string> feature_names(const Compiled& c) {
+  std::vector<std::string> names;
+  for (const FeatureLayer& layer : c.scene.value().layers.features) names.push_back(layer.name);
+  return names;
+}
+
+TEST(IntegratorHost, MomentIsTheIntegratorInIt) {
+  const Compiled c = compile_integrator(integrator("moment", integrator("direct", integer("max_depth", "1"))));
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(c.tables().integrator.max_depth, 1);
+  EXPECT_EQ(c.info().integrator, "moment");
+  EXPECT_THAT(c.scene->layers.moments, ElementsAre("_arg_0"));
+  EXPECT_THAT(
+      compile_integrator(integrator("moment", R"(<integrator type="path" name="image"/>)")).scene->layers.moments,
+      ElementsAre("image"));
+  EXPECT_THAT(compile_integrator(integrator("moment", "")).messages(),
+              ElementsAre("error: integrator 'moment' has no integrator in it [<integrator type=\"path\"/> in it]"));
+  EXPECT_THAT(compile_integrator(integrator("moment", integrator("path", "") + integrator("path", ""))).messages(),
+              ElementsAre("error: integrator 'moment' has more than one integrator [one integrator]"));
+  EXPECT_THAT(compile_integrator(integrator("moment", integrator("moment", integrator("path", "")))).messages(),
+              ElementsAre("error: integrator 'moment' has an integrator with layers in it "
+                          "[direct, path, whitted or depth in it]"));
+  EXPECT_THAT(compile_integrator(integrator("moment", integrator("path", integer("depth", "2")))).messages(),
+              ElementsAre("error: unused parameter 'depth' of integrator 'path' "
+                          "[bounces, emitter_samples, hide_emitters, max_depth, rr_depth]"));
+}
+
+std::string aovs(const std::string& value) { return "<string name=\"aovs\" value=\"" + value + "\"/>"; }
+
+TEST(IntegratorHost, AovNamesLayersAsMitsubaDoes) {
+  const Compiled c = compile_integrator(integrator(
+      "aov", aovs("a:albedo, dd.y:depth,p:position,t:uv,g:geo_normal,n:sh_normal,pu:dp_du,pv:dp_dv,i:prim_index,"
+                  "s:shape_index") +
+                 R"(<integrator type="path" name="image"><integer name="max_depth" value="3"/></integrator>)"));
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_THAT(feature_names(c),
+              ElementsAre("a.R", "a.G", "a.B", "dd.y.T", "p.X", "p.Y", "p.Z", "t.U", "t.V", "g.X", "g.Y", "g.Z", "n.X",
+                          "n.Y", "n.Z", "pu.X", "pu.Y", "pu.Z", "pv.X", "pv.Y", "pv.Z", "i.I", "s.I"));
+  EXPECT_THAT(c.scene->layers.image_copies, ElementsAre("image"));
+  EXPECT_EQ(c.tables().integrator.max_depth, 3);
+}
+
+TEST(IntegratorHost, AovAloneShowsNothing) {
+  EXPECT_EQ(compile_integrator(integrator("aov", aovs("n:sh_normal"))).tables().integrator.max_depth, 0);
+}
+
+TEST(IntegratorHost, AovTakesAMoment) {
+  const Compiled c = compile_integrator(integrator(
+      "aov", aovs("n:depth") + "<integrator type=\"moment\" name=\"m\">" + integrator("path", "") + "</integrator>"));
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_THAT(c.scene->layers.moments, ElementsAre("m._arg_0"));
+}
+
+TEST(IntegratorHost, AovRefusesWhatItDoesNotKnow) {
+  const std::string known =
+      " [albedo, depth, position, uv, geo_normal, sh_normal, dp_du, dp_dv, prim_index, shape_index]";
+  const auto messages = [](const std::string& inside) {
+    return compile_integrator(integrator("aov", inside)).messages();
+  };
+  EXPECT_THAT(messages(aovs("n:sh_norml")),
+              ElementsAre("error: unknown aov 'sh_norml', did you mean 'sh_normal'?" + known));
+  EXPECT_THAT(messages(aovs("x:duv_dx")), ElementsAre("error: aov 'duv_dx' is not supported yet" + known));
+  EXPECT_THAT(messages(aovs("depth")),
+              ElementsAre("error: 'aovs' has 'depth' in it [pairs such as position:position, normal:sh_normal]"));
+  EXPECT_THAT(messages(aovs("n:position,n:sh_normal")),
+              ElementsAre("error: 'aovs' has two layers 'n.X' [a name of its own for each]"));
+  EXPECT_THAT(messages(""),
+              ElementsAre("error: integrator 'aov' names no layers [<string name=\"aovs\" value=\"NAME:TYPE,...\"/>]"));
+  EXPECT_THAT(messages(integer("aovs", "2")), ElementsAre("error: 'aovs' is an integer [string]",
+                                                          "error: integrator 'aov' names no layers "
+                                                          "[<string name=\"aovs\" value=\"NAME:TYPE,...\"/>]"));
+}
+
+TEST(IntegratorHost, DepthTakesNothing) {
+  EXPECT_TRUE(compile_integrator(integrator("depth", "")).tables().integrator.distance);
+  EXPECT_THAT(compile_integrator(integrator("depth", integer("max_depth", "2"))).messages(),
+              ElementsAre("error: unused parameter 'max_depth' of integrator 'depth' [no parameters]"));
+}
+
+TEST(IntegratorHost, NestsOnlySoDeep) {
+  std::string nested = integrator("path", "");
+  for (int i = 0; i < 12; ++i) nested = integrator("aov", aovs("n" + std::to_string(i) + ":depth") + nested);
+  EXPECT_THAT(compile_integrator(nested).messages(),
+              ElementsAre("error: integrators are nested more than 8 deep [up to 8 inside each other]"));
+}
+
 TEST(IntegratorHost, BouncesAreDepthLessOne) {
   EXPECT_EQ(compile_integrator(integrator("path", integer("bounces", "3"))).tables().integrator.max_depth, 4);
   EXPECT_EQ(compile_integrator(integrator("path", integer("bounces", "0"))).tables().integrator.max_depth, 1);
@@ -121,10 +229,12 @@ TEST(Ptracer, RefusesWhatIsOutOfRangeAndOtherParameters) {
 }
 
 TEST(IntegratorHost, RefusesOthers) {
-  EXPECT_THAT(compile_integrator(integrator("volpath", "")).messages(),
-              ElementsAre("error: integrator 'volpath' is not supported yet [direct, path, ptracer, whitted]"));
-  EXPECT_THAT(compile_integrator(integrator("pth", "")).messages(),
-              ElementsAre("error: unknown integrator 'pth', did you mean 'path'? [direct, path, ptracer, whitted]"));
+  EXPECT_THAT(
+      compile_integrator(integrator("volpath", "")).messages(),
+      ElementsAre("error: integrator 'volpath' is not supported yet [aov, depth, direct, moment, path, ptracer, whitted]"));
+  EXPECT_THAT(
+      compile_integrator(integrator("pth", "")).messages(),
+      ElementsAre("error: unknown integrator 'pth', did you mean 'path'? [aov, depth, direct, moment, path, ptracer, whitted]"));
   EXPECT_THAT(compile_integrator(integrator("path", "") + integrator("path", "")).messages(),
               ElementsAre("error: scene has more than one integrator [one integrator]"));
 }
@@ -145,7 +255,8 @@ TEST(IntegratorHost, TheCommandLinesReplacementMustExist) {
   const Compiled c = compile_integrator(integrator("path", ""), options);
   EXPECT_THAT(
       c.messages(),
-      ElementsAre("error: unknown integrator 'wited', did you mean 'whitted'? [direct, path, ptracer, whitted]"));
+      ElementsAre(
+          "error: unknown integrator 'wited', did you mean 'whitted'? [aov, depth, direct, moment, path, ptracer, whitted]"));
   EXPECT_EQ(c.diagnostics.all().at(0).location.line, 0);
 }
 
@@ -154,7 +265,7 @@ TEST(IntegratorHost, AReplacedIntegratorsUnknownParametersAreLeftAside) {
   options.sampler = "independent";
   const Compiled c = compile_elements(
       R"(<sensor type="perspective"><film type="hdrfilm"><rfilter type="box"/></film>
-         <sampler type="multijitter"><integer name="sample_count" value="9"/><boolean name="jitter" value="true"/></sampler>
+         <sampler type="orthogonal"><integer name="sample_count" value="9"/><boolean name="jitter" value="true"/></sampler>
          </sensor>)" +
           kShape + kEmitter,
       {}, options);

@@ -2,11 +2,10 @@
 //
 // Parameters: those of all integrators (integrator/integrator_host.h).
 // Source: Kajiya 1986, The Rendering Equation; Veach 1997, Robust Monte Carlo Methods for Light Transport Simulation.
-#include "compile/plugins.h"
 #include "integrator/integrator_host.h"
 
 namespace norrsken {
 
-IntegratorSettings compile_integrator_path(Parameters& p) { return read_integrator(p); }
+IntegratorSettings compile_integrator_path(Parameters& p, Builder&) { return read_integrator(p); }
 
 }  // namespace norrsken

@@ -17,7 +17,7 @@
 
 namespace norrsken {
 
-IntegratorSettings compile_integrator_ptracer(Parameters& p) {
+IntegratorSettings compile_integrator_ptracer(Parameters& p, Builder&) {
   IntegratorSettings settings = read_path_lengths(p);
   settings.hide_emitters = p.boolean("hide_emitters", false);
   p.integer("samples_per_pass", 1, 1, std::numeric_limits<int>::max());

@@ -87,11 +87,15 @@ struct Crew::Tile {
 Crew::Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, int threads,
            const std::atomic<bool>& cancelled)
     : scene_(scene),
+      feature_scene_(scene),
       kernels_(kernels),
       film_(film),
       film_view_(film.view()),
       threads_(threads),
-      cancelled_(cancelled) {}
+      cancelled_(cancelled) {
+  feature_scene_.features = film_view_.feature_mask;
+  feature_scene_.needs_uv = scene.needs_uv || (film_view_.feature_mask & kUvFeatures) != 0;
+}
 
 Crew::~Crew() = default;
 
@@ -142,8 +146,12 @@ void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& nex
       trace_particles(plan, wave, memory, counts);
       continue;
     }
-    const auto trace = pass == Pass::radiance ? kernels_.trace_wave : kernels_.trace_features;
-    trace(scene_, plan.wave(wave), memory, counts);
+    const WaveJob job = plan.wave(wave);
+    if (pass == Pass::radiance) {
+      kernels_.trace_wave(scene_, job, memory, counts);
+    } else {
+      kernels_.trace_features(feature_scene_, job, memory, counts);
+    }
     add_to_film(pass, plan, wave, memory);
   }
   const std::lock_guard lock(mutex_);

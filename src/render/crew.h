@@ -48,6 +48,7 @@ class Crew {
   void keep_dropped(const DroppedSamples& dropped);
 
   const SceneView& scene_;
+  SceneView feature_scene_;  ///< the same, with what features need
   const KernelEntry& kernels_;
   Film& film_;
   FilmView film_view_;

@@ -15,6 +15,24 @@ namespace {
 
 constexpr std::uint32_t kFeatureSamples = 16;
 
+FilmSettings film_settings(const SceneTables& tables) {
+  FilmSettings film = tables.film;
+  film.opaque = tables.environment != kNone && !tables.integrator.hide_emitters;
+  return film;
+}
+
+SceneLayers layers(const Scene& scene, const RenderOptions& options) {
+  SceneLayers layers = scene.tables().layers;
+  if (options.features) {
+    for (FeatureLayer& layer : standard_features()) layers.features.push_back(std::move(layer));
+  }
+  return layers;
+}
+
+bool needs_all_features(const Scene& scene) {
+  return !scene.tables().layers.features.empty() || scene.tables().tables.film.has_alpha();
+}
+
 std::string usable_isa_list() {
   std::string list = "auto";
   for (const std::string& name : usable_isas()) list += ", " + name;
@@ -32,8 +50,9 @@ class RenderSession final : public Render {
         threads_(crew_size(options.threads)),
         samples_(static_cast<std::uint64_t>(
             options.samples_per_pixel.value_or(static_cast<int>(view_.sampler.samples_per_pixel)))),
-        film_(view_.film, view_.sampler.kind, options.features),
-        features_(options.features) {
+        film_(film_settings(tables_), view_.sampler.kind, layers(scene_, options)),
+        needs_all_features_(needs_all_features(scene_)),
+        features_(options.features || needs_all_features_) {
     view_.sampler.seed += options.seed;
     if (view_.integrator.from_lights) film_.add_splats(Splats(view_.film, tables_.filter));
   }
@@ -56,7 +75,8 @@ class RenderSession final : public Render {
     };
     const auto tick = on_progress ? std::function<void()>(progress) : std::function<void()>();
     if (features_) {
-      feature_samples_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(samples_, kFeatureSamples));
+      feature_samples_ = static_cast<std::uint32_t>(
+          needs_all_features_ ? samples_ : std::min<std::uint64_t>(samples_, kFeatureSamples));
       crew.run_features(feature_samples_, tick);
       begin = std::chrono::steady_clock::now();  // figures are those of the image, not of its layers
     }
@@ -78,7 +98,7 @@ class RenderSession final : public Render {
 
   void cancel() noexcept override { cancelled_.store(true, std::memory_order_relaxed); }
 
-  Image image(bool layers) const override { return film_.image(layers, feature_samples_); }
+  Image image(bool statistics) const override { return film_.image(statistics, feature_samples_); }
 
  private:
   Scene scene_;
@@ -89,6 +109,7 @@ class RenderSession final : public Render {
   int threads_;
   std::uint64_t samples_;
   Film film_;
+  bool needs_all_features_;  ///< of as many samples as the image: the scene itself asks for them
   bool features_;
   std::uint32_t feature_samples_ = 0;
   std::atomic<bool> cancelled_{false};

@@ -6,6 +6,8 @@
 
 namespace norrsken {
 
-SamplerSettings compile_sampler_independent(Parameters& p) { return read_sampler(p, SamplerKind::independent); }
+SamplerSettings compile_sampler_independent(Parameters& p, Builder&) {
+  return read_sampler(p, SamplerKind::independent);
+}
 
 }  // namespace norrsken

@@ -24,6 +24,29 @@ TEST(SamplerHost, BothKindsTakeCountAndSeed) {
   }
 }
 
+TEST(SamplerHost, MitsubasStratifiedOnesGetTheSobolPoints) {
+  const std::string jitter = R"(<boolean name="jitter" value="false"/>)";
+  for (const auto& [type, inside] : {std::pair<std::string, std::string>{"stratified", jitter},
+                                     {"multijitter", jitter},
+                                     {"orthogonal", jitter + R"(<integer name="strength" value="3"/>)"},
+                                     {"ldsampler", ""}}) {
+    const Compiled c = compile_sampler("<sampler type=\"" + type + R"("><integer name="sample_count" value="5"/>)" +
+                                       R"(<integer name="seed" value="2"/>)" + inside + "</sampler>");
+    ASSERT_THAT(c.messages(), IsEmpty());
+    EXPECT_EQ(c.tables().sampler.kind, SamplerKind::sobol);
+    EXPECT_EQ(c.tables().sampler.samples_per_pixel, 5);
+    EXPECT_EQ(c.tables().sampler.seed, 2u);
+    EXPECT_EQ(c.info().sampler, type);
+  }
+  EXPECT_THAT(compile_sampler(R"(<sampler type="ldsampler">)" + jitter + "</sampler>").messages(),
+              ElementsAre("error: unused parameter 'jitter' of sampler 'ldsampler' [sample_count, seed]"));
+  EXPECT_THAT(
+      compile_sampler(R"(<sampler type="orthogonal"><integer name="strength" value="1"/></sampler>)").messages(),
+      ElementsAre("error: 'strength' is 1 [an integer from 2 to 1024]"));
+  EXPECT_THAT(compile_sampler(R"(<sampler type="stratified"><integer name="jitter" value="1"/></sampler>)").messages(),
+              ElementsAre("error: 'jitter' is an integer [boolean]"));
+}
+
 TEST(SamplerHost, SobolWithFourSamplesIsTheDefault) {
   const Compiled c = compile_sampler("");
   ASSERT_THAT(c.messages(), IsEmpty());
@@ -47,10 +70,9 @@ TEST(SamplerHost, RefusesCountsThatMakeNoImage) {
 }
 
 TEST(SamplerHost, RefusesOtherSamplersAndParameters) {
-  EXPECT_THAT(compile_sampler(R"(<sampler type="multijitter"/>)").messages(),
-              ElementsAre("error: sampler 'multijitter' is not supported yet [independent, sobol]"));
   EXPECT_THAT(compile_sampler(R"(<sampler type="sobel"/>)").messages(),
-              ElementsAre("error: unknown sampler 'sobel', did you mean 'sobol'? [independent, sobol]"));
+              ElementsAre("error: unknown sampler 'sobel', did you mean 'sobol'? "
+                          "[independent, ldsampler, multijitter, orthogonal, sobol, stratified]"));
   EXPECT_THAT(compile_sampler(R"(<sampler type="sobol"><integer name="count" value="1"/></sampler>)").messages(),
               ElementsAre("error: unused parameter 'count' of sampler 'sobol' [sample_count, seed]"));
   EXPECT_THAT(compile_sampler(R"(<sampler type="sobol"/><sampler type="sobol"/>)").messages(),

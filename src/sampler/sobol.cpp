@@ -7,6 +7,6 @@
 
 namespace norrsken {
 
-SamplerSettings compile_sampler_sobol(Parameters& p) { return read_sampler(p, SamplerKind::sobol); }
+SamplerSettings compile_sampler_sobol(Parameters& p, Builder&) { return read_sampler(p, SamplerKind::sobol); }
 
 }  // namespace norrsken

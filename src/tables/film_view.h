@@ -17,6 +17,44 @@ struct DroppedSamples {
 /// In a pixel's count: a sample was left out, so the count does not tell any more which replicates hold how many.
 inline constexpr std::uint32_t kSomeDropped = 0x80000000u;
 
+/// What is known of samples' first hits: planes of numbers, zero where nothing is hit. The first eight are those that
+/// any scene can be asked for; the others are for scenes that name them.
+enum Feature : std::uint32_t {
+  kFeatureDepth,    ///< along the camera's axis
+  kFeatureNormalX,  ///< shading normal on the side that is seen
+  kFeatureNormalY,
+  kFeatureNormalZ,
+  kFeatureAlbedoRed,
+  kFeatureAlbedoGreen,
+  kFeatureAlbedoBlue,
+  kFeatureObject,    ///< index of the shape, counted from 1
+  kFeatureCoverage,  ///< 1 where something is hit
+  kFeatureDistance,  ///< from the camera
+  kFeaturePositionX,
+  kFeaturePositionY,
+  kFeaturePositionZ,
+  kFeatureU,
+  kFeatureV,
+  kFeatureGeometricX,  ///< normal as the shape has it, whichever side is seen
+  kFeatureGeometricY,
+  kFeatureGeometricZ,
+  kFeatureShadingX,  ///< shading normal, the same
+  kFeatureShadingY,
+  kFeatureShadingZ,
+  kFeatureDpDuX,
+  kFeatureDpDuY,
+  kFeatureDpDuZ,
+  kFeatureDpDvX,
+  kFeatureDpDvY,
+  kFeatureDpDvZ,
+  kFeaturePrimitive,  ///< index within the shape
+  kFeatureCount
+};
+/// Numbers that have no mean: those of the pixel's first sample are kept.
+inline constexpr std::uint32_t kDiscreteFeatures = 1u << kFeatureObject | 1u << kFeaturePrimitive;
+/// Those that need texture coordinates or tangents.
+inline constexpr std::uint32_t kUvFeatures = (1u << kFeatureU | 1u << kFeatureV) | 63u << kFeatureDpDuX;
+
 /// Planes of width * height values. What the sum planes hold depends on the sampler:
 ///   independent: sums of R, G, B, then sums of their squares (6 planes);
 ///   Sobol': for each replicate r the sums of R, G, B in planes 3 r, 3 r + 1, 3 r + 2 (3 * kReplicates planes).
@@ -25,7 +63,9 @@ inline constexpr std::uint32_t kSomeDropped = 0x80000000u;
 struct FilmView {
   double* sums = nullptr;
   std::uint32_t* counts = nullptr;  ///< samples that were added, per pixel; kSomeDropped says that others were not
-  float* features = nullptr;  ///< 8 planes or null: depth, normal XYZ, albedo RGB (sums), object id (first sample)
+  double* moments = nullptr;        ///< 3 planes or null: weighted sums of the squares of X, Y and Z
+  double* features = nullptr;       ///< weighted sums, one plane for each bit of `feature_mask`
+  std::uint32_t feature_mask = 0;
   std::uint32_t width = 0, height = 0;
   bool weighted = false;  ///< samples carry weights of the reconstruction filter
 

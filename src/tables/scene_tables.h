@@ -181,6 +181,12 @@ struct FilmSettings {
   PixelFormat pixel_format = PixelFormat::rgb;
   bool half_precision = false;  ///< image files hold 16-bit floats
 
+  bool opaque = false;          ///< alpha is 1 everywhere: there is light from everywhere
+
+  bool is_xyz() const { return pixel_format == PixelFormat::xyz || pixel_format == PixelFormat::xyza; }
+  bool is_luminance() const {
+    return pixel_format == PixelFormat::luminance || pixel_format == PixelFormat::luminance_alpha;
+  }
   bool has_alpha() const {
     return pixel_format == PixelFormat::rgba || pixel_format == PixelFormat::xyza ||
            pixel_format == PixelFormat::luminance_alpha;
@@ -197,9 +203,11 @@ struct SamplerSettings {
 struct IntegratorSettings {
   int max_depth = -1;           ///< as in Mitsuba: 1 emitters only, 2 direct light, -1 unbounded
   int rr_depth = 5;             ///< depth from which Russian roulette ends paths
-  int emitter_samples = 1;      ///< shadow rays per hit
+  int emitter_samples = 1;      ///< shadow rays per hit; 0: none
   bool diffuse_bounces = true;  ///< false (whitted): only delta scattering is followed, light sampling alone
-  bool hide_emitters = false;
+  int bsdf_samples = 1;         ///< directions sampled at the first hit; 0: none, light sampling alone
+  bool distance = false;        ///< the image is the distance from the camera
+  bool hide_emitters = false;   ///< the camera looks through surfaces that emit, and sees no environment
   bool from_lights = false;  ///< ptracer: paths start at the lights, and every surface they hit is shown to the camera
 };
 

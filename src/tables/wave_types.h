@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "tables/accel_tables.h"
+#include "tables/film_view.h"
 #include "tables/scene_tables.h"
 
 namespace norrsken {
@@ -42,6 +43,7 @@ struct SceneView {
   bool any_area_light = false;
   CameraRecord camera;
   FilmSettings film;
+  std::uint32_t features = 0;     ///< bit k: Feature k is wanted
   const float* filter = nullptr;  ///< the reconstruction filter's table, if it has one
   SamplerSettings sampler;
   IntegratorSettings integrator;
@@ -92,15 +94,8 @@ enum SlotField : std::uint32_t {
   kSlotKey,
   kSlotIndex,
   kSlotWeight,  ///< of the reconstruction filter; only written and read if it is not a box
-  kSlotDepth,
-  kSlotNormalX,
-  kSlotNormalY,
-  kSlotNormalZ,
-  kSlotAlbedoRed,
-  kSlotAlbedoGreen,
-  kSlotAlbedoBlue,
-  kSlotObject,
-  kSlotFieldCount
+  kSlotFeatures,  ///< kFeatureCount fields
+  kSlotFieldCount = kSlotFeatures + kFeatureCount
 };
 enum RayField : std::uint32_t {
   kRayOriginX,

@@ -1,6 +1,7 @@
 // Stage: finished SLOTS -> the film's sums.
 #pragma once
 
+#include "color/srgb.h"
 #include "simd/lanes.h"
 #include "tables/film_view.h"
 #include "tables/wave_types.h"
@@ -48,6 +49,22 @@ inline void drop_non_finite(const WaveJob& job, const FilmView& film, const Queu
   }
 }
 
+/// Adds the second moments of a row's colours, XYZ, as weighted means have them.
+inline void add_moments(const FilmView& film, const Queue& slots, std::uint32_t slot, std::uint32_t pixel,
+                        std::uint32_t n) {
+  const float* rgb[3] = {slots.field(kSlotRed) + slot, slots.field(kSlotGreen) + slot, slots.field(kSlotBlue) + slot};
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    double* sums = film.moments + k * film.pixels() + pixel;
+    const ColorVector row = kXyzFromSrgb[k];
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const double v = row[0] * static_cast<double>(rgb[0][i]) + row[1] * static_cast<double>(rgb[1][i]) +
+                       row[2] * static_cast<double>(rgb[2][i]);
+      const float weight = film.weighted ? slots.field(kSlotWeight)[slot + i] : 1.0f;
+      sums[i] += static_cast<double>(weight) * v * v;
+    }
+  }
+}
+
 /// Applies the weights that the reconstruction filter gave the samples of a row.
 NORRSKEN_INLINE void weigh_row(const Queue& slots, std::uint32_t slot, std::uint32_t n) {
   const float* weights = slots.field(kSlotWeight) + slot;
@@ -71,6 +88,7 @@ inline void accumulate_film(const WaveJob& job, SamplerKind sampler, const Queue
           !all_finite(slots.field(kSlotBlue) + slot, job.width)) {
         drop_non_finite(job, film, slots, sample, slot, pixel, dropped);
       }
+      if (film.moments != nullptr) add_moments(film, slots, slot, pixel, job.width);
       if (film.weighted) weigh_row(slots, slot, job.width);
       for (std::uint32_t channel = 0; channel < 3; ++channel) {
         const float* values = slots.field(kSlotRed + channel) + slot;
@@ -83,17 +101,25 @@ inline void accumulate_film(const WaveJob& job, SamplerKind sampler, const Queue
   }
 }
 
-/// Features are plain float sums; the object id is that of the pixel's first sample.
+/// Adds the features that the film has planes for; of those that have no mean, the pixel's first sample.
 inline void accumulate_features(const WaveJob& job, const Queue& slots, const FilmView& film) {
   for (std::uint32_t s = 0; s < job.sample_count; ++s) {
     for (std::uint32_t y = 0; y < job.height; ++y) {
       const std::uint32_t slot = s * job.pixel_stride() + y * job.width;
-      const std::size_t pixel = static_cast<std::size_t>(job.y0 + y) * film.width + job.x0;
-      for (std::uint32_t k = 0; k < 8; ++k) {
-        const float* values = slots.field(kSlotDepth + k) + slot;
-        float* plane = film.features + k * film.pixels() + pixel;
-        if (k == 7 && job.first_sample + s > 0) continue;
-        for (std::uint32_t x = 0; x < job.width; ++x) plane[x] += values[x];
+      const float* weights = slots.field(kSlotWeight) + slot;
+      double* sums = film.features + static_cast<std::size_t>(job.y0 + y) * film.width + job.x0;
+      for (std::uint32_t rest = film.feature_mask; rest != 0; rest &= rest - 1, sums += film.pixels()) {
+        const auto feature = static_cast<std::uint32_t>(__builtin_ctz(rest));
+        const float* values = slots.field(kSlotFeatures + feature) + slot;
+        const bool discrete = (kDiscreteFeatures >> feature & 1u) != 0;
+        if (discrete && job.first_sample + s > 0) continue;
+        if (film.weighted && !discrete) {
+          for (std::uint32_t x = 0; x < job.width; ++x) {
+            sums[x] += static_cast<double>(weights[x]) * static_cast<double>(values[x]);
+          }
+        } else {
+          add_row(sums, values, job.width);
+        }
       }
     }
   }

@@ -21,11 +21,13 @@
 #include "wave/accumulate_film.h"
 #include "wave/generate_camera_rays.h"
 #include "wave/intersect_closest.h"
+#include "wave/intersect_distance.h"
 #include "wave/intersect_shadow.h"
 #include "wave/shade_emission.h"
 #include "wave/shade_features.h"
 #include "wave/shade_miss.h"
 #include "wave/shade_surface.h"
+#include "wave/skip_emitters.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -36,14 +38,16 @@ inline constexpr std::uint32_t kAllScattering = ~1u;  // every BSDF kind but abs
 template <class Model>
 inline void shade_kind(const SceneView& scene, ShadeSettings settings, const Queue& hits, WaveMemory& memory,
                        WaveCounts& counts) {
-  const auto light_samples = static_cast<std::uint32_t>(scene.integrator.emitter_samples);
+  // The further directions of a hit go without lights.
+  const auto light_samples =
+      settings.bsdf_sample > 0 ? 0u : static_cast<std::uint32_t>(scene.integrator.emitter_samples);
   const std::uint32_t most = memory.shadow_rays.capacity / kMaxLanes;
   const std::uint32_t per_pass = light_samples < most ? light_samples : most;
-  const std::uint32_t portion = memory.shadow_rays.capacity / per_pass / kMaxLanes * kMaxLanes;
+  const std::uint32_t portion = memory.shadow_rays.capacity / (per_pass > 0 ? per_pass : 1) / kMaxLanes * kMaxLanes;
   const bool next_rays = settings.next_rays;
   for (std::uint32_t begin = 0; begin < hits.count; begin += portion) {
     const std::uint32_t end = hits.count - begin < portion ? hits.count : begin + portion;
-    for (std::uint32_t first = 0; first < light_samples; first += per_pass) {
+    for (std::uint32_t first = 0; first == 0 || first < light_samples; first += per_pass) {
       settings.first_light_sample = first;
       settings.end_light_sample = light_samples - first < per_pass ? light_samples : first + per_pass;
       settings.next_rays = next_rays && first == 0;
@@ -51,7 +55,7 @@ inline void shade_kind(const SceneView& scene, ShadeSettings settings, const Que
       shade_surface<Model>(scene, settings, hits, begin, end, memory.slots, memory.shadow_rays, memory.next_rays);
       counts.shadow_rays += memory.shadow_rays.count;
       intersect_shadow(scene, memory.shadow_rays, memory.slots);
-      if (Model::kDelta) break;  // nothing was sampled
+      if (Model::kDelta || per_pass == 0) break;  // nothing was sampled
     }
   }
 }
@@ -72,11 +76,43 @@ NORRSKEN_INLINE void clear_hits(WaveMemory& memory) {
   memory.misses.count = 0;
 }
 
+/// The emission that a path's last rays find, in memory.rays.
+inline void finish_paths(const SceneView& scene, WaveMemory& memory, WaveCounts& counts) {
+  counts.closest_rays += memory.rays.count;
+  memory.light_hits.count = 0;
+  memory.misses.count = 0;
+  intersect_emitters(scene, memory.rays, memory);
+  shade_emission(scene, memory.light_hits, memory.slots);
+  shade_miss(scene, memory.misses, memory.slots);
+}
+
+/// Directions of the first hits beyond the first one; the next rays of that stay where they are.
+inline void sample_further_directions(const SceneView& scene, ShadeSettings settings, WaveMemory& memory,
+                                      WaveCounts& counts) {
+  const auto n = static_cast<std::uint32_t>(scene.integrator.bsdf_samples);
+  for (settings.bsdf_sample = 1; settings.bsdf_sample < n; ++settings.bsdf_sample) {
+    Queue& rays = memory.rays;
+    rays.count = 0;
+    const Queue first = memory.next_rays;
+    memory.next_rays = rays;
+    shade_surfaces(scene, settings, memory, counts);
+    memory.rays = memory.next_rays;
+    memory.next_rays = first;
+    finish_paths(scene, memory, counts);
+  }
+}
+
 /// Traces a wave's paths from camera to slots.
 inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& memory, WaveCounts& counts) {
   const IntegratorSettings& integrator = scene.integrator;
   const auto max_depth = integrator.max_depth < 0 ? 0xffffffffu : static_cast<std::uint32_t>(integrator.max_depth);
   generate_camera_rays(scene, job, memory.slots, memory.rays);
+  if (integrator.distance) {
+    counts.closest_rays += memory.rays.count;
+    intersect_distance(scene, memory.rays, memory.slots);
+    return;
+  }
+  if (integrator.hide_emitters && scene.any_area_light) skip_emitters(scene, memory.rays);
   for (std::uint32_t hit_number = 1; hit_number <= max_depth && memory.rays.count > 0; ++hit_number) {
     const bool last = hit_number == max_depth;
     counts.closest_rays += memory.rays.count;
@@ -94,9 +130,13 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
     if (last) break;
     // A path's last ray can only find an area light; without one there is no need to send it.
     const bool next_is_last = hit_number + 1 == max_depth;
-    const ShadeSettings settings{hit_number, 0, 0, !next_is_last || scene.any_area_light || scene.environment != kNone,
+    const bool anything_to_find = !next_is_last || scene.any_area_light || scene.environment != kNone;
+    const ShadeSettings settings{hit_number, 0, 0, anything_to_find && integrator.bsdf_samples > 0,
                                  hit_number >= static_cast<std::uint32_t>(integrator.rr_depth)};
     shade_surfaces(scene, settings, memory, counts);
+    if (integrator.bsdf_samples > 1 && settings.next_rays) {
+      sample_further_directions(scene, settings, memory, counts);
+    }
     const Queue finished = memory.rays;
     memory.rays = memory.next_rays;
     memory.next_rays = finished;
@@ -106,7 +146,8 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
 /// The feature layers of a wave's first hits.
 inline void trace_features(const SceneView& scene, const WaveJob& job, WaveMemory& memory, WaveCounts& counts) {
   generate_camera_rays(scene, job, memory.slots, memory.rays);
-  for (std::uint32_t k = kSlotDepth; k < kSlotFieldCount; ++k) {
+  if (scene.integrator.hide_emitters && scene.any_area_light) skip_emitters(scene, memory.rays);
+  for (std::uint32_t k = kSlotFeatures; k < kSlotFieldCount; ++k) {
     for (std::uint32_t i = 0; i < memory.slots.count; i += kLanes) store(memory.slots.field(k) + i, Float(0.0f));
   }
   clear_hits(memory);

@@ -1,9 +1,30 @@
-// Stage: first HITS -> feature layers of their slots (distance, shading normal, albedo, shape).
+// Stage: first HITS -> features of their slots, those that the scene's view wants.
 #pragma once
 
+#include "camera/camera.h"
 #include "wave/surface.h"
 
 namespace norrsken::NORRSKEN_ISA {
+
+/// -1 where the side that is seen is not the one that the shape's normal points to.
+NORRSKEN_INLINE Float side_of_normal(const SceneView& scene, const SurfacePoint& surface, UInt shape, Mask active) {
+  const UInt flipped = gather_uint(reinterpret_cast<const float*>(scene.shapes) + 3, shape_index(shape), active);
+  return select(flipped != UInt(0u), -surface.side, surface.side);
+}
+
+/// Stores a register's values of one feature to the slots of its active lanes.
+NORRSKEN_INLINE void store_feature(const Queue& slots, std::uint32_t feature, UInt slot, Float value, Mask active) {
+  alignas(64) float lanes[kLanes], index[kLanes];
+  store(index, slot);
+  store(lanes, value);
+  float* field = slots.field(kSlotFeatures + feature);
+  for (std::uint32_t rest = to_bits(active); rest != 0; rest &= rest - 1) {
+    const int lane = __builtin_ctz(rest);
+    std::uint32_t s;
+    __builtin_memcpy(&s, &index[lane], sizeof s);
+    field[s] = lanes[lane];
+  }
+}
 
 template <class Model>
 inline void shade_features(const SceneView& scene, const Queue& hits, Queue& slots) {
@@ -14,20 +35,44 @@ inline void shade_features(const SceneView& scene, const Queue& hits, Queue& slo
     const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));
     const Vec3f albedo = Model::albedo(bsdf);
     const UInt shape = gather_uint(surface_floats(scene) + 7, record_index(hit.primitive), active);
-    const Vec3f along = hit.ray.direction * hit.t;
-    const Float depth = dot(along, broadcast(scene.camera.forward)) + Float(scene.camera.near_clip);
-    const Float values[] = {depth,    surface.frame.n.x, surface.frame.n.y, surface.frame.n.z,
-                            albedo.x, albedo.y,          albedo.z,          to_float(shape + UInt(1u))};
-    alignas(64) float lanes[kLanes], slot[kLanes];
-    store(slot, hit.ray.slot);
-    for (std::uint32_t k = 0; k < 8; ++k) {
-      store(lanes, values[k]);
-      for (std::uint32_t rest = to_bits(active); rest != 0; rest &= rest - 1) {
-        const int lane = __builtin_ctz(rest);
-        std::uint32_t s;
-        __builtin_memcpy(&s, &slot[lane], sizeof s);
-        slots.field(kSlotDepth + k)[s] = lanes[lane];
-      }
+    const UInt first_primitive = gather_uint(reinterpret_cast<const float*>(scene.shapes), shape_index(shape), active);
+    const Float along_axis = dot(hit.ray.direction, broadcast(scene.camera.forward));
+    const Float side = side_of_normal(scene, surface, shape, active);
+    const Vec3f facing = surface.frame.n, p = surface.position;
+    const Vec3f geometric = surface.normal * side, shading = facing * side;
+    const Float values[kFeatureCount] = {
+        fma(hit.t, along_axis, Float(scene.camera.near_clip)),
+        facing.x,
+        facing.y,
+        facing.z,
+        albedo.x,
+        albedo.y,
+        albedo.z,
+        to_float(shape + UInt(1u)),
+        Float(1.0f),
+        hit.t + distance_to_near_plane(scene.camera, hit.ray.direction),
+        p.x,
+        p.y,
+        p.z,
+        surface.texture.uv.x,
+        surface.texture.uv.y,
+        geometric.x,
+        geometric.y,
+        geometric.z,
+        shading.x,
+        shading.y,
+        shading.z,
+        surface.dp_du.x,
+        surface.dp_du.y,
+        surface.dp_du.z,
+        surface.dp_dv.x,
+        surface.dp_dv.y,
+        surface.dp_dv.z,
+        to_float(hit.primitive - first_primitive),
+    };
+    for (std::uint32_t rest = scene.features; rest != 0; rest &= rest - 1) {
+      const auto feature = static_cast<std::uint32_t>(__builtin_ctz(rest));
+      store_feature(slots, feature, hit.ray.slot, values[feature], active);
     }
   }
 }

@@ -9,6 +9,7 @@ namespace norrsken::NORRSKEN_ISA {
 
 inline void shade_miss(const SceneView& scene, const Queue& misses, Queue& slots) {
   const Float light_samples(static_cast<float>(scene.integrator.emitter_samples));
+  const Float bsdf_samples(static_cast<float>(scene.integrator.bsdf_samples));
   for (std::uint32_t i = 0; i < misses.count; i += kLanes) {
     const Mask active = first_lanes(misses.count - i);
     const Ray ray = load_ray(misses, i);
@@ -18,7 +19,7 @@ inline void shade_miss(const SceneView& scene, const Queue& misses, Queue& slots
     if (any(competed)) {
       const Float light_pdf =
           light_pdf_sa(scene, UInt(scene.environment), ray.origin, ray.direction, Float(2.0f * scene.radius), competed);
-      weight = select(competed, power_heuristic(Float(1.0f), ray.pdf_sa, light_samples, light_pdf), weight);
+      weight = select(competed, power_heuristic(bsdf_samples, ray.pdf_sa, light_samples, light_pdf), weight);
     }
     add_radiance(slots, ray.slot, ray.throughput * radiance * weight, active);
   }

@@ -16,6 +16,7 @@ struct ShadeSettings {
   std::uint32_t first_light_sample, end_light_sample;  ///< which of the emitter_samples per hit to take
   bool next_rays;                                      ///< paths go on, if only to look for emission
   bool roulette;
+  std::uint32_t bsdf_sample = 0;  ///< which of the bsdf_samples to take
 };
 
 /// Survival probability as Mitsuba's: the largest component of the throughput, at most 0.95.
@@ -30,7 +31,9 @@ NORRSKEN_INLINE void sample_lights(const SceneView& scene, const ShadeSettings& 
                                    Mask active) {
   const auto n = static_cast<std::uint32_t>(scene.integrator.emitter_samples);
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
-  const bool choose = scene.light_count > 1, mis = scene.integrator.diffuse_bounces;
+  const Float bsdf_samples(static_cast<float>(scene.integrator.bsdf_samples));
+  const bool choose = scene.light_count > 1;
+  const bool mis = scene.integrator.diffuse_bounces && scene.integrator.bsdf_samples > 0;
   for (std::uint32_t i = settings.first_light_sample; i < settings.end_light_sample; ++i) {
     const SampleKey k = sampler.repetition(key, i, n);
     Vec2f pick{Float(0.0f), Float(0.0f)};
@@ -50,7 +53,7 @@ NORRSKEN_INLINE void sample_lights(const SceneView& scene, const ShadeSettings& 
     Float weight = Float(1.0f) / (light_pdf * Float(static_cast<float>(n)));
     if (mis) {
       const Float competing =
-          power_heuristic(Float(static_cast<float>(n)), light_pdf, Float(1.0f), Model::pdf_sa(bsdf, wo, wi));
+          power_heuristic(Float(static_cast<float>(n)), light_pdf, bsdf_samples, Model::pdf_sa(bsdf, wo, wi));
       weight = weight * select(light.delta, Float(1.0f), competing);
     }
     const Vec3f contribution = hit.ray.throughput * f * light.sample.radiance * weight;
@@ -65,13 +68,16 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
                                      const typename Model::Parameters& bsdf, const Vec3f& wo, Queue& next_rays,
                                      Mask active) {
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
+  const auto n = static_cast<std::uint32_t>(scene.integrator.bsdf_samples);
+  const SampleKey k = sampler.repetition(key, settings.bsdf_sample, n);
   Vec2f u{Float(0.0f), Float(0.0f)};
-  if (!Model::kDelta) u = sampler.sample_2d(key, dimension + hit_dimension::kBsdfDirection);
+  if (!Model::kDelta) u = sampler.sample_2d(k, dimension + hit_dimension::kBsdfDirection);
   Float lobe(0.0f);
-  if (Model::kUsesLobe) lobe = sampler.sample_1d(key, dimension + hit_dimension::kBsdfLobe);
+  if (Model::kUsesLobe) lobe = sampler.sample_1d(k, dimension + hit_dimension::kBsdfLobe);
   const BsdfSample sample = Model::sample(bsdf, wo, lobe, u);
   Vec3f throughput = hit.ray.throughput * sample.weight;
   active &= sample.valid & (max_component(throughput) > Float(0.0f));
+  if (n > 1) throughput = throughput * Float(1.0f / static_cast<float>(n));
   if (settings.roulette) {
     const Float survive = survival_probability(throughput);
     active &= sampler.sample_1d(key, dimension + hit_dimension::kRoulette) < survive;
@@ -80,7 +86,8 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
   const Vec3f direction = surface.frame.to_world(sample.wi);
   const Vec3f origin = spawn_origin(surface.position, surface.normal, surface.offset, dot(direction, surface.normal));
   // Light sampling competes with a direction unless it is a delta or nothing can be sampled.
-  const Float pdf = scene.light_count > 0 ? sample.pdf_sa : Float(0.0f);
+  const bool competed = scene.light_count > 0 && scene.integrator.emitter_samples > 0;
+  const Float pdf = competed ? sample.pdf_sa : Float(0.0f);
   if (any(active)) push(next_rays, Ray{origin, direction, throughput, pdf, hit.ray.slot}, active);
 }
 

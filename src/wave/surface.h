@@ -15,6 +15,7 @@ struct SurfacePoint {
   Vec3f position;
   Vec3f normal;  ///< geometric
   Frame frame;   ///< around the shading normal
+  Float side;    ///< -1 where the ray comes from the side that the outward normal points away from, otherwise 1
   Float offset;  ///< bound of how far rounding may have moved the position off the surface, with reserve
   /// Only if the scene `needs_uv`: where textures look, and how the position moves with u and v.
   TexturePoint texture;
@@ -195,6 +196,7 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
     s.frame = make_frame(shading * sign);
   }
   s.normal = s.normal * sign;
+  s.side = sign;
   return s;
 }
 

@@ -1,0 +1,21 @@
+// Stage: RAYS from the camera -> their slots get the distance to what they meet, 0 where that is nothing.
+#pragma once
+
+#include "accel/intersect.h"
+#include "camera/camera.h"
+#include "wave/records.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+inline void intersect_distance(const SceneView& scene, const Queue& rays, Queue& slots) {
+  for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
+    const Mask active = first_lanes(rays.count - i);
+    const Ray ray = load_ray(rays, i);
+    const ClosestHit closest = intersect_closest_lanes(scene, true, ray.origin, ray.direction, active);
+    const Mask met = active & (closest.t <= distance_to_far_plane(scene.camera, ray.direction));
+    const Float distance = closest.t + distance_to_near_plane(scene.camera, ray.direction);
+    add_radiance(slots, ray.slot, {distance, distance, distance}, met);
+  }
+}
+
+}  // namespace norrsken::NORRSKEN_ISA

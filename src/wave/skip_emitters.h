@@ -1,0 +1,35 @@
+// Stage: RAYS from the camera -> the same, begun behind the surfaces of emitters that they would meet first.
+#pragma once
+
+#include "wave/surface.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// Emitters behind each other that are looked through: far more than any scene has, so that no ray goes on forever.
+inline constexpr int kMostSkipped = 256;
+
+inline void skip_emitters(const SceneView& scene, Queue& rays) {
+  for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
+    Mask active = first_lanes(rays.count - i);
+    Hit hit;
+    hit.ray = load_ray(rays, i);
+    for (int skipped = 0; skipped < kMostSkipped && any(active); ++skipped) {
+      const ClosestHit closest =
+          intersect_closest_lanes(scene, skipped == 0, hit.ray.origin, hit.ray.direction, active);
+      active &= closest.t < Float(kInfinity);
+      hit.t = closest.t;
+      hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
+      hit.instance = closest.instance;
+      active &= gather_uint(surface_floats(scene) + 6, record_index(hit.primitive), active) != UInt(kNone);
+      if (none(active)) break;
+      const SurfacePoint surface = make_surface_point(scene, hit, active);
+      const Vec3f behind = spawn_origin(surface.position, surface.normal, surface.offset, Float(-1.0f));
+      hit.ray.origin = select(active, behind, hit.ray.origin);
+    }
+    store(rays.field(kRayOriginX) + i, hit.ray.origin.x);
+    store(rays.field(kRayOriginY) + i, hit.ray.origin.y);
+    store(rays.field(kRayOriginZ) + i, hit.ray.origin.z);
+  }
+}
+
+}  // namespace norrsken::NORRSKEN_ISA
