@@ -1,17 +1,17 @@
 // conductor: host side.
 //
 // Parameters
-//   material              string (default "none"): a conductor by name, from the table of measured ones; "none" reflects
-//                         everything
+//   material              string (default "none"): a conductor by name, from the table of measured ones; "none"
+//                         reflects everything
 //   eta, k                color or texture, from 0 (default 0 and 1, which is "none"): real and imaginary part of the
 //                         index of refraction, over that of the surroundings; instead of a material
 //   specular_reflectance  color or texture, 0 to 1 (default 1): factor on the reflected light
 // Stored: specular reflectance, eta, k (colours). A specular reflectance of exactly 0 is stored as `absorb`.
 // Side: the front reflects, the back is black; `twosided` makes both reflect.
 //
-// Materials by name: a-C, Ag, Al, AlAs, AlSb, Au, Be, Cr, CsI, Cu, Cu2O, CuO, d-C, Hg, HgTe, Ir, K, Li, MgO, Mo, Na_palik,
-// Nb, Ni_palik, Rh, Se, Se-e, SiC, SnTe, Ta, Te, Te-e, ThF4, TiC, TiN, TiO2, TiO2-e, V_palik, VC, VN, W; most of them also
-// with _palik behind, as in Mitsuba.
+// Materials by name: a-C, Ag, Al, AlAs, AlSb, Au, Be, Cr, CsI, Cu, Cu2O, CuO, d-C, Hg, HgTe, Ir, K, Li, MgO, Mo,
+// Na_palik, Nb, Ni_palik, Rh, Se, Se-e, SiC, SnTe, Ta, Te, Te-e, ThF4, TiC, TiN, TiO2, TiO2-e, V_palik, VC, VN, W; most
+// of them also with _palik behind, as in Mitsuba.
 #include "bsdf/conductor_host.h"
 #include "compile/plugins.h"
 

@@ -105,7 +105,8 @@ TEST(RoughconductorHost, StoresItsRoughness) {
   EXPECT_FALSE(c.tables().needs_uv);
 
   const Compiled along = compile("roughconductor", R"(<string name="distribution" value="GGX"/>
-      <float name="alpha_u" value="0.3"/><float name="alpha_v" value="0.2"/><boolean name="sample_visible" value="false"/>)");
+      <float name="alpha_u" value="0.3"/><float name="alpha_v" value="0.2"/>
+      <boolean name="sample_visible" value="false"/>)");
   ASSERT_THAT(along.messages(), IsEmpty());
   const std::vector<float> stored = parameters_of(along, 17);
   EXPECT_THAT(std::vector<float>(stored.begin() + 12, stored.end()), ElementsAre(0.3f, 0, 0.2f, 0, 1));

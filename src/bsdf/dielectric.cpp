@@ -8,8 +8,8 @@
 // Side: both; the back has the inverse index.
 //
 // Materials by name, in any case: vacuum, helium, hydrogen, air, carbon dioxide; water, acetone, ethanol, carbon
-// tetrachloride, glycerol, benzene, silicone oil, bromine; water ice, fused quartz, pyrex, acrylic glass, polypropylene,
-// bk7, sodium chloride, amber, pet, diamond.
+// tetrachloride, glycerol, benzene, silicone oil, bromine; water ice, fused quartz, pyrex, acrylic glass,
+// polypropylene, bk7, sodium chloride, amber, pet, diamond.
 #include "bsdf/dielectric_host.h"
 #include "compile/plugins.h"
 

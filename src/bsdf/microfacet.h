@@ -3,8 +3,8 @@
 //
 // Parameters  alpha_u, alpha_v: roughness along x and y, root mean square slope (Beckmann); at least 1e-4
 // Measure     densities are over the solid angle of m
-// Source      distributions and masking: Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007,
-//             equations 25, 27, 33 and 34; anisotropic: Heitz, "Understanding the Masking-Shadowing Function in
+// Source      distributions and masking: Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
+//             2007, equations 25, 27, 33 and 34; anisotropic: Heitz, "Understanding the Masking-Shadowing Function in
 //             Microfacet-Based BRDFs", 2014; visible normals: Heitz and d'Eon, "Importance Sampling Microfacet-Based
 //             BSDFs using the Distribution of Visible Normals", 2014
 // Departures  Beckmann's masking is Walter's rational approximation (equation 27, within 0.35 %) in values, as it is in

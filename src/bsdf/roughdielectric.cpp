@@ -6,8 +6,8 @@
 //   alpha           float or texture, 0 to 100 (default 0.1): roughness, the root mean square slope of the facets
 //   alpha_u, alpha_v  the same along u and v of the texture coordinates, both or none
 //   sample_visible  boolean: accepted; visible normals are sampled either way
-// Stored: specular reflectance, specular transmittance (colours), alpha_u, alpha_v (scalars), 1 for ggx, relative index of
-// refraction.
+// Stored: specular reflectance, specular transmittance (colours), alpha_u, alpha_v (scalars), 1 for ggx, relative index
+// of refraction.
 // Side: both; the back has the inverse index.
 #include "bsdf/dielectric_host.h"
 #include "bsdf/microfacet_host.h"

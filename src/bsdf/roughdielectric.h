@@ -1,14 +1,14 @@
 // Model       Rough dielectric: tiny interfaces that reflect and refract, as ground glass does.
 // Parameters  int_ior, ext_ior, specular_reflectance, specular_transmittance: as dielectric has them, but the indices
 //             must differ;
-//             distribution ("beckmann" or "ggx", default "beckmann"); alpha (float or texture, at least 0, default 0.1),
-//             root mean square slope of the facets, or alpha_u and alpha_v along the texture coordinates;
+//             distribution ("beckmann" or "ggx", default "beckmann"); alpha (float or texture, at least 0, default
+//             0.1), root mean square slope of the facets, or alpha_u and alpha_v along the texture coordinates;
 //             sample_visible (accepted; visible normals are sampled either way)
 // Measure     pdf_sa, from the normals that are visible and each facet's share of reflected light
 // Source      Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, equations 20 and 21; see
 //             microfacet.h
-// Departures  roughness below 1e-4 counts as 1e-4, and Beckmann's masking is Walter's rational approximation, both as in
-//             Mitsuba; the density, though, has the exact masking of what is sampled
+// Departures  roughness below 1e-4 counts as 1e-4, and Beckmann's masking is Walter's rational approximation, both as
+//             in Mitsuba; the density, though, has the exact masking of what is sampled
 #pragma once
 
 #include "bsdf/bsdf.h"

@@ -1,4 +1,5 @@
-// Exponentials, inverse trigonometric and error functions of lanes: full lanes, no branches, no approximate instructions.
+// Exponentials, inverse trigonometric and error functions of lanes: full lanes, no branches, no approximate
+// instructions.
 //
 // Polynomials are minimax fits (Lawson's reweighted least squares, in 40 digits) of the function that the line says,
 // over the interval that the reduction leaves. Errors are in units of the result's last place (ulp), measured over
