@@ -120,6 +120,7 @@ TEST_P(EveryBsdf, WeightIsValueOverDensity) {
 }
 
 TEST_P(EveryBsdf, NothingIsScatteredFromBelow) {
+  if (GetParam().plugin == std::string("null")) return;  // it knows no below: what it is put on may have normals
   on_each_side([](const LoadedBsdf& bsdf, const LoadedBsdf*) {
     Random random(2);
     for (const View& view : kViews) {

@@ -109,7 +109,8 @@ ColorParameter Builder::color(Parameters& p, std::string_view name, glm::dvec3 f
 ScalarParameter Builder::scalar(Parameters& p, std::string_view name, double fallback, double min, double max,
                                 Ends ends) {
   if (const auto texture = texture_of(p, name, min, max))
-    return {(texture->mean.x + texture->mean.y + texture->mean.z) / 3, texture->word};
+    return {(texture->mean.x + texture->mean.y + texture->mean.z) / 3,
+            texture->number != 0 ? texture->number : texture->word};
   return {p.number(name, fallback, min, max, ends)};
 }
 
@@ -125,6 +126,7 @@ std::uint32_t Builder::add_parameters(std::span<const float> values) {
 }
 
 MaterialWord Builder::add_material(BsdfKind kind, const ParameterBlock& parameters) {
+  tables().bsdf_kinds |= 1u << static_cast<std::uint32_t>(kind);
   return make_material(kind, add_parameters(parameters.values()));
 }
 

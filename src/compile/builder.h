@@ -46,6 +46,7 @@ struct Texture {
   glm::dvec3 mean{0.5};
   double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
   std::uint32_t width = 1, height = 1;  ///< in texels, for what has any
+  TextureWord number = 0;               ///< in place of `word` where it stands for a number, if that is another one
 };
 
 /// A model's parameters in the order in which its kernel's ParameterReader counts them.

@@ -7,6 +7,9 @@ std::span<const Plugin<CompileBsdf>> bsdf_plugins() {
 #define NORRSKEN_BSDF(kind, Model) {#kind, compile_bsdf_##kind},
 #include "bsdf/list.def"
 #undef NORRSKEN_BSDF
+#define NORRSKEN_BSDF_RESOLVED(name, Adapter) {#name, compile_bsdf_##name},
+#include "bsdf/resolved.def"
+#undef NORRSKEN_BSDF_RESOLVED
 #define NORRSKEN_BSDF_ADAPTER(name) {#name, compile_bsdf_##name},
 #include "bsdf/adapters.def"
 #undef NORRSKEN_BSDF_ADAPTER

@@ -27,6 +27,9 @@ using CompileIntegrator = IntegratorSettings(Parameters&, Builder&);
 #define NORRSKEN_BSDF(kind, Model) CompileBsdf compile_bsdf_##kind;
 #include "bsdf/list.def"
 #undef NORRSKEN_BSDF
+#define NORRSKEN_BSDF_RESOLVED(name, Adapter) CompileBsdf compile_bsdf_##name;
+#include "bsdf/resolved.def"
+#undef NORRSKEN_BSDF_RESOLVED
 #define NORRSKEN_BSDF_ADAPTER(name) CompileBsdf compile_bsdf_##name;
 #include "bsdf/adapters.def"
 #undef NORRSKEN_BSDF_ADAPTER

@@ -17,8 +17,7 @@ void run_shade_surface(const SceneView& scene, BsdfKind kind, std::uint32_t hit_
     break;
 #include "bsdf/list.def"
 #undef NORRSKEN_BSDF
-    case BsdfKind::absorb:
-    case BsdfKind::count:
+    default:  // nothing is shaded with those
       break;
   }
 }

@@ -78,6 +78,7 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
     view.any_area_light = view.any_area_light || s.light != kNone;
   }
   view.any_resolved = view.bsdf_kinds >> kModelCount != 0;
+  if (view.any_resolved) view.bsdf_kinds |= tables.bsdf_kinds | 1u << static_cast<std::uint32_t>(BsdfKind::absorb);
   for (const LightRecord& light : tables.lights) view.light_kinds |= 1u << static_cast<std::uint32_t>(light.kind);
   view.any_smooth =
       std::any_of(tables.shapes.begin(), tables.shapes.end(), [](const ShapeRecord& s) { return s.smooth != 0; });

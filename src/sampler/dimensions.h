@@ -27,7 +27,8 @@ inline constexpr std::uint32_t kLens = 2;           // 2: where on the lens; pat
 inline constexpr std::uint32_t kBsdfLobe = 4;       // 1: which part of the BSDF
 inline constexpr std::uint32_t kBsdfDirection = 5;  // 2
 inline constexpr std::uint32_t kRoulette = 7;       // 1
-inline constexpr std::uint32_t kCount = 8;
+inline constexpr std::uint32_t kMaterial = 8;       // 1: which of the BSDFs behind a mask or a blend
+inline constexpr std::uint32_t kCount = 10;         // even: pairs stay pairs
 }  // namespace hit_dimension
 
 constexpr std::uint32_t first_dimension_of_hit(std::uint32_t hit) { return hit * hit_dimension::kCount; }

@@ -124,6 +124,18 @@ TEST(CheckerboardHost, StoresItsColours) {
               ElementsAre(1, 0, 0, 0, 1, 0, 0.4f, 0.4f, 0.4f, 0.2f, 0.2f, 0.2f));
 }
 
+TEST(CheckerboardHost, ChangesItsColoursForNumbersAsMitsubaDoes) {
+  const Compiled c = compile_bsdf(
+      R"(<bsdf type="mask"><texture name="opacity" type="checkerboard"><float name="color0" value="0.1"/>
+      <float name="color1" value="0.9"/></texture><bsdf type="diffuse"/></bsdf>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const auto& parameters = c.tables().parameters;
+  const std::uint32_t mask = c.tables().surfaces.at(0).material_front & kMaterialOffsetMask;
+  const std::uint32_t texture = word_at(parameters, mask + 1) & kTextureOffsetMask;
+  EXPECT_EQ(parameters.at(texture + 6), 0.9f);
+  EXPECT_EQ(parameters.at(texture + 9), 0.1f);
+}
+
 TEST(CheckerboardHost, IsHeldAgainstTheParametersRange) {
   EXPECT_THAT(
       compile_texture(R"(<texture name="reflectance" type="checkerboard"><float name="color1" value="1.5"/></texture>)")
@@ -192,7 +204,7 @@ TEST(Textures, MayStandInTheScene) {
     <shape type="rectangle"><bsdf type="diffuse"><ref name="reflectance" id="t"/></bsdf></shape>
     <shape type="rectangle"><bsdf type="diffuse"><ref name="reflectance" id="t"/></bsdf></shape>)");
   ASSERT_THAT(c.messages(), IsEmpty());
-  EXPECT_EQ(c.tables().parameters.size(), 12u + 2 * 4);
+  EXPECT_EQ(c.tables().parameters.size(), 2u * 12 + 2 * 4);
   EXPECT_THAT(
       compile_elements(kSensor + kShape + kEmitter + R"(<texture type="bitmap"/>)").messages(),
       ElementsAre("error: texture 'bitmap' needs a parameter 'filename' [<string name=\"filename\" value=\"...\"/>]"));

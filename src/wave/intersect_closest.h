@@ -12,6 +12,19 @@ NORRSKEN_INLINE UInt material_of(const SceneView& scene, UInt primitive, UInt pr
   return gather_uint(surface_floats(scene) + 4, record_index(primitive) + back, active);
 }
 
+inline constexpr std::uint32_t kModelKinds = (1u << kModelCount) - 1u;
+
+/// To the queue of the model that the hit's material names, if it is in the bit set `wanted_kinds`.
+NORRSKEN_INLINE void push_by_kind(const SceneView& scene, const Hit& hit, std::uint32_t wanted_kinds,
+                                  WaveMemory& memory, Mask active) {
+  const UInt kind_bits = hit.material & UInt(kMaterialKindMask);
+  for (std::uint32_t kinds = scene.bsdf_kinds & wanted_kinds & kModelKinds; kinds != 0; kinds &= kinds - 1) {
+    const auto kind = static_cast<std::uint32_t>(__builtin_ctz(kinds));
+    const Mask of_kind = active & (kind_bits == UInt(kind << 24));
+    if (any(of_kind)) push(scene, memory.hits[kind], hit, of_kind);
+  }
+}
+
 /// `hit_number` 1: the rays come from the camera. Only hits of the BSDF kinds in the bit set `wanted_kinds` are kept.
 inline void intersect_closest(const SceneView& scene, std::uint32_t hit_number, std::uint32_t wanted_kinds,
                               const Queue& rays, WaveMemory& memory) {
@@ -29,15 +42,16 @@ inline void intersect_closest(const SceneView& scene, std::uint32_t hit_number, 
     hit.t = closest.t;
     hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
     hit.instance = closest.instance;
+    hit.bump = UInt(0u);
     hit.material = material_of(scene, hit.primitive, closest.primitive_side, active);
 
     const Mask emits = active & ((hit.material & UInt(kEmitsBit)) != UInt(0u));
     if (any(emits)) push(scene, memory.light_hits, hit, emits);
-    const UInt kind_bits = hit.material & UInt(kMaterialKindMask);
-    for (std::uint32_t kinds = scene.bsdf_kinds & wanted_kinds; kinds != 0; kinds &= kinds - 1) {
-      const auto kind = static_cast<std::uint32_t>(__builtin_ctz(kinds));
-      const Mask of_kind = active & (kind_bits == UInt(kind << 24));
-      if (any(of_kind)) push(scene, memory.hits[kind], hit, of_kind);
+    push_by_kind(scene, hit, wanted_kinds, memory, active);
+    if (scene.any_resolved && wanted_kinds != 0) {
+      const UInt kind_bits = hit.material & UInt(kMaterialKindMask);
+      const Mask stands_before = active & !(to_float(kind_bits) < Float(static_cast<float>(kModelCount << 24)));
+      if (any(stands_before)) push(scene, memory.unresolved_hits, hit, stands_before);
     }
   }
 }
@@ -65,6 +79,7 @@ inline void intersect_emitters(const SceneView& scene, const Queue& rays, WaveMe
     hit.t = closest.t;
     hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
     hit.instance = closest.instance;
+    hit.bump = UInt(0u);
     hit.material = material_of(scene, hit.primitive, closest.primitive_side, active);
     active &= (hit.material & UInt(kEmitsBit)) != UInt(0u);
     if (any(active)) push(scene, memory.light_hits, hit, active);

@@ -21,6 +21,7 @@ struct Hit {
   UInt primitive;
   UInt material;  ///< the word of the side that was hit
   UInt instance;  ///< that it was hit in, or kNone
+  UInt bump;      ///< the word of the bump or normal map there, or 0
 };
 
 /// A ray that carries `contribution` to its slot unless something is within `t_max`.
@@ -59,9 +60,12 @@ NORRSKEN_INLINE void push(Queue& q, const Ray& r, Mask m) {
 }
 
 NORRSKEN_INLINE Hit load_hit(const SceneView& scene, const Queue& q, std::uint32_t i) {
-  return {load_ray(q, i), load(q.field(kHitDistance) + i), load_uint(q.field(kHitPrimitive) + i),
+  return {load_ray(q, i),
+          load(q.field(kHitDistance) + i),
+          load_uint(q.field(kHitPrimitive) + i),
           load_uint(q.field(kHitMaterial) + i),
-          scene.instance_count > 0 ? load_uint(q.field(kHitInstance) + i) : UInt(kNone)};
+          scene.instance_count > 0 ? load_uint(q.field(kHitInstance) + i) : UInt(kNone),
+          scene.any_resolved ? load_uint(q.field(kHitBump) + i) : UInt(0u)};
 }
 NORRSKEN_INLINE void push(const SceneView& scene, Queue& q, const Hit& h, Mask m) {
   const Compaction c = make_compaction(m);
@@ -70,6 +74,7 @@ NORRSKEN_INLINE void push(const SceneView& scene, Queue& q, const Hit& h, Mask m
   compress_store(q.field(kHitPrimitive) + q.count, h.primitive, c);
   compress_store(q.field(kHitMaterial) + q.count, h.material, c);
   if (scene.instance_count > 0) compress_store(q.field(kHitInstance) + q.count, h.instance, c);
+  if (scene.any_resolved) compress_store(q.field(kHitBump) + q.count, h.bump, c);
   q.count += c.count;
 }
 

@@ -4,7 +4,7 @@
 //                                              |                                 |
 //                              intersect_closest (last: _emitters)               |
 //                    |           |                            |                  |
-//                  MISSES   LIGHT HITS                 HITS by BSDF kind         |
+//                  MISSES   LIGHT HITS   HITS by BSDF kind <- resolve_materials  |
 //                    |           |                            |                  |
 //               shade_miss  shade_emission              shade_surface ---> next rays
 //                    |           |                            |
@@ -15,6 +15,7 @@
 #include "bsdf/conductor.h"
 #include "bsdf/dielectric.h"
 #include "bsdf/diffuse.h"
+#include "bsdf/null.h"
 #include "bsdf/roughconductor.h"
 #include "bsdf/roughdielectric.h"
 #include "bsdf/thindielectric.h"
@@ -23,6 +24,7 @@
 #include "wave/intersect_closest.h"
 #include "wave/intersect_distance.h"
 #include "wave/intersect_shadow.h"
+#include "wave/resolve_materials.h"
 #include "wave/shade_emission.h"
 #include "wave/shade_features.h"
 #include "wave/shade_miss.h"
@@ -122,6 +124,7 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
       intersect_emitters(scene, memory.rays, memory);
     } else {
       intersect_closest(scene, hit_number, last ? 0u : kAllScattering, memory.rays, memory);
+      resolve_materials(scene, hit_number, kAllScattering, memory);
     }
     if (!(integrator.hide_emitters && hit_number == 1)) {
       shade_emission(scene, memory.light_hits, memory.slots);
@@ -153,6 +156,7 @@ inline void trace_features(const SceneView& scene, const WaveJob& job, WaveMemor
   clear_hits(memory);
   counts.closest_rays += memory.rays.count;
   intersect_closest(scene, 1, ~0u, memory.rays, memory);
+  resolve_materials(scene, 1, ~0u, memory);
   shade_features<Absorb>(scene, memory.hits[0], memory.slots);
 #define NORRSKEN_BSDF(kind, Model) \
   shade_features<Model>(scene, memory.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory.slots);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "camera/camera.h"
-#include "wave/surface.h"
+#include "wave/perturbed_frame.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -31,7 +31,8 @@ inline void shade_features(const SceneView& scene, const Queue& hits, Queue& slo
   for (std::uint32_t i = 0; i < hits.count; i += kLanes) {
     const Mask active = first_lanes(hits.count - i);
     const Hit hit = load_hit(scene, hits, i);
-    const SurfacePoint surface = make_surface_point(scene, hit, active);
+    SurfacePoint surface = make_surface_point(scene, hit, active);
+    perturb_frame(scene, hit, surface, active);
     const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));
     const Vec3f albedo = Model::albedo(bsdf);
     const UInt shape = gather_uint(surface_floats(scene) + 7, record_index(hit.primitive), active);

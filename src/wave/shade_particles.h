@@ -10,7 +10,7 @@
 #include "sampler/sampler.h"
 #include "wave/generate_camera_rays.h"
 #include "wave/intersect_connections.h"
-#include "wave/surface.h"
+#include "wave/perturbed_frame.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -127,10 +127,13 @@ inline void shade_particles(const SceneView& scene, const ParticleSettings& sett
   const Sampler sampler{scene.sampler.kind};
   for (std::uint32_t i = 0; i < hits.count; i += kLanes) {
     const Mask active = first_lanes(hits.count - i);
-    const Hit hit = load_hit(scene, hits, i);
-    const SurfacePoint surface = make_surface_point(scene, hit, active);
+    Hit hit = load_hit(scene, hits, i);
+    SurfacePoint surface = make_surface_point(scene, hit, active);
+    const Perturbation map = perturb_frame(scene, hit, surface, active);
     const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));
     const Vec3f wo = surface.frame.to_local(-hit.ray.direction);
+    // The light comes from where the ray did. (Normals are folded back by that side too, not by the viewer's.)
+    if (map.any) hit.ray.throughput = hit.ray.throughput * map.weight(-hit.ray.direction, wo.z);
     const SampleKey key = load_sample_key(slots, hit.ray.slot, active);
     if (!Model::kDelta) {
       const Vec2f lens = lens_sample(scene, sampler, key, settings);

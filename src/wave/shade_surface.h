@@ -6,7 +6,7 @@
 #include "sampler/sampler.h"
 #include "wave/generate_camera_rays.h"
 #include "wave/mis.h"
-#include "wave/surface.h"
+#include "wave/perturbed_frame.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -27,8 +27,8 @@ NORRSKEN_INLINE Float survival_probability(const Vec3f& throughput) {
 template <class Model>
 NORRSKEN_INLINE void sample_lights(const SceneView& scene, const ShadeSettings& settings, const Sampler& sampler,
                                    const SampleKey& key, const Hit& hit, const SurfacePoint& surface,
-                                   const typename Model::Parameters& bsdf, const Vec3f& wo, Queue& shadow_rays,
-                                   Mask active) {
+                                   const Perturbation& map, const typename Model::Parameters& bsdf, const Vec3f& wo,
+                                   Queue& shadow_rays, Mask active) {
   const auto n = static_cast<std::uint32_t>(scene.integrator.emitter_samples);
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
   const Float bsdf_samples(static_cast<float>(scene.integrator.bsdf_samples));
@@ -56,6 +56,7 @@ NORRSKEN_INLINE void sample_lights(const SceneView& scene, const ShadeSettings& 
           power_heuristic(Float(static_cast<float>(n)), light_pdf, bsdf_samples, Model::pdf_sa(bsdf, wo, wi));
       weight = weight * select(light.delta, Float(1.0f), competing);
     }
+    if (map.any) weight = weight * map.weight(direction, wi.z);
     const Vec3f contribution = hit.ray.throughput * f * light.sample.radiance * weight;
     const Mask lit = active & light.sample.valid & (max_component(contribution) != Float(0.0f));
     if (any(lit)) push(shadow_rays, ShadowRay{origin, direction, distance, contribution, hit.ray.slot}, lit);
@@ -65,8 +66,8 @@ NORRSKEN_INLINE void sample_lights(const SceneView& scene, const ShadeSettings& 
 template <class Model>
 NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings& settings, const Sampler& sampler,
                                      const SampleKey& key, const Hit& hit, const SurfacePoint& surface,
-                                     const typename Model::Parameters& bsdf, const Vec3f& wo, Queue& next_rays,
-                                     Mask active) {
+                                     const Perturbation& map, const typename Model::Parameters& bsdf, const Vec3f& wo,
+                                     Queue& next_rays, Mask active) {
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
   const auto n = static_cast<std::uint32_t>(scene.integrator.bsdf_samples);
   const SampleKey k = sampler.repetition(key, settings.bsdf_sample, n);
@@ -75,7 +76,9 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
   Float lobe(0.0f);
   if (Model::kUsesLobe) lobe = sampler.sample_1d(k, dimension + hit_dimension::kBsdfLobe);
   const BsdfSample sample = Model::sample(bsdf, wo, lobe, u);
+  const Vec3f direction = surface.frame.to_world(sample.wi);
   Vec3f throughput = hit.ray.throughput * sample.weight;
+  if (map.any) throughput = throughput * map.weight(direction, sample.wi.z);
   active &= sample.valid & (max_component(throughput) > Float(0.0f));
   if (n > 1) throughput = throughput * Float(1.0f / static_cast<float>(n));
   if (settings.roulette) {
@@ -83,7 +86,6 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
     active &= sampler.sample_1d(key, dimension + hit_dimension::kRoulette) < survive;
     throughput = throughput * (Float(1.0f) / survive);
   }
-  const Vec3f direction = surface.frame.to_world(sample.wi);
   const Vec3f origin = spawn_origin(surface.position, surface.normal, surface.offset, dot(direction, surface.normal));
   // Light sampling competes with a direction unless it is a delta or nothing can be sampled.
   const bool competed = scene.light_count > 0 && scene.integrator.emitter_samples > 0;
@@ -101,13 +103,14 @@ inline void shade_surface(const SceneView& scene, const ShadeSettings& settings,
   for (std::uint32_t i = begin; i < end; i += kLanes) {
     const Mask active = first_lanes(end - i);
     const Hit hit = load_hit(scene, hits, i);
-    const SurfacePoint surface = make_surface_point(scene, hit, active);
+    SurfacePoint surface = make_surface_point(scene, hit, active);
+    const Perturbation map = perturb_frame(scene, hit, surface, active);
     const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));
     const Vec3f wo = surface.frame.to_local(-hit.ray.direction);
     const SampleKey key = load_sample_key(slots, hit.ray.slot, active);
     if (light_sampling)
-      sample_lights<Model>(scene, settings, sampler, key, hit, surface, bsdf, wo, shadow_rays, active);
-    if (go_on) sample_next_ray<Model>(scene, settings, sampler, key, hit, surface, bsdf, wo, next_rays, active);
+      sample_lights<Model>(scene, settings, sampler, key, hit, surface, map, bsdf, wo, shadow_rays, active);
+    if (go_on) sample_next_ray<Model>(scene, settings, sampler, key, hit, surface, map, bsdf, wo, next_rays, active);
   }
 }
 

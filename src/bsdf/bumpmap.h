@@ -1,0 +1,29 @@
+// Model       The BSDF inside, with the shading normal of the surface moved along its normals by a texture.
+// Parameters  texture (a bitmap), scale (number, default 1), flip_invalid_normals and use_shadowing_function (booleans,
+//             default true; see wave/perturbed_frame.h)
+// Measure     that of the BSDF inside
+// Source      Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978: the derivatives of the moved surface without the
+//             term in the change of the normal
+// Departures  none
+#pragma once
+
+#include "bsdf/resolved.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// Stored: the word inside, flags, scale, the texture's word.
+struct BumpMap {
+  static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Float&) { return bits(p.number(0)); }
+
+  static NORRSKEN_INLINE Vec3f normal(const ParameterReader& p, const Unperturbed& s) {
+    const Vec2f slope = Bitmap::gradient(p.scene, bits(p.number(3)) & UInt(kTextureOffsetMask), p.point, p.active);
+    const Float scale = p.number(2);
+    const auto moved = [&](const Vec3f& tangent, Float height) {
+      return fma(s.frame.n, fms(height, scale, dot(s.frame.n, tangent)), tangent);
+    };
+    const Vec3f n = cross(moved(s.dp_du, slope.x), moved(s.dp_dv, slope.y));
+    return s.frame.to_local(n * copysign(Float(1.0f), dot(n, s.normal)));
+  }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

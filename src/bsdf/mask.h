@@ -1,0 +1,19 @@
+// Model       A surface with holes: the BSDF inside with the probability `opacity`, nothing otherwise.
+// Parameters  opacity (number or texture, 0 to 1, default 0.5)
+// Measure     that of the BSDF inside, or delta
+// Source      none needed
+// Departures  Mitsuba chooses where it samples only; the expectation is the same
+#pragma once
+
+#include "bsdf/resolved.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// Stored: opacity (scalar), then the words of what is inside and of nothing.
+struct MaskBsdf {
+  static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Float& choice) {
+    return choose(p.scalar(0), bits(p.number(2)), bits(p.number(3)), choice);
+  }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

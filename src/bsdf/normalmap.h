@@ -1,0 +1,25 @@
+// Model       The BSDF inside, with shading normals from a texture.
+// Parameters  normalmap (texture or value: red, green, blue are x, y, z of the normal in the shading frame, -1 to 1 mapped
+//             to 0 to 1), flip_invalid_normals and use_shadowing_function (booleans, default true; see
+//             wave/perturbed_frame.h)
+// Measure     that of the BSDF inside
+// Source      Mitsuba 3's documentation of its plugin
+// Departures  none
+#pragma once
+
+#include "bsdf/resolved.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// Stored: the word inside, flags, the normal map (color).
+struct NormalMap {
+  static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Float&) { return bits(p.number(0)); }
+
+  static NORRSKEN_INLINE Vec3f normal(const ParameterReader& p, const Unperturbed&) {
+    const Vec3f c = p.color(2);
+    const auto decoded = [](Float x) { return fms(Float(2.0f), x, Float(1.0f)); };
+    return {decoded(c.x), decoded(c.y), decoded(c.z)};
+  }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

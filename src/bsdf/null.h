@@ -1,0 +1,33 @@
+// Model       No surface at all: light passes straight through.
+// Parameters  none
+// Measure     delta
+// Source      none needed
+// Departures  none
+#pragma once
+
+#include "bsdf/bsdf.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+struct Null {
+  static constexpr bool kDelta = true;
+  static constexpr bool kUsesLobe = false;
+
+  struct Parameters {};
+
+  static NORRSKEN_INLINE Parameters load(const ParameterReader&) { return {}; }
+
+  static NORRSKEN_INLINE Vec3f evaluate(const Parameters&, const Vec3f&, const Vec3f&) {
+    return {Float(0.0f), Float(0.0f), Float(0.0f)};
+  }
+
+  static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return Float(0.0f); }
+
+  static NORRSKEN_INLINE BsdfSample sample(const Parameters&, const Vec3f& wo, Float, Vec2f) {
+    return {-wo, {Float(1.0f), Float(1.0f), Float(1.0f)}, Float(0.0f), wo.z == wo.z};
+  }
+
+  static NORRSKEN_INLINE Vec3f albedo(const Parameters&) { return {Float(1.0f), Float(1.0f), Float(1.0f)}; }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA

@@ -1,0 +1,185 @@
+// BSDFs that stand before others, against plain surfaces that look the same and against closed forms.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "norrsken/image.h"
+#include "tests/closed_form/closed_form.h"
+#include "tests/end_to_end/rendering.h"
+
+namespace norrsken::end_to_end {
+namespace {
+
+constexpr int kSize = 16;
+constexpr double kIntensity = 50, kReflectance = 0.6;
+const closed_form::Vec kLight{1, 2, 3};
+
+/// Of a smooth picture of a thousand and more samples a pixel, the mean is far better known than this.
+constexpr double kTolerance = 3e-3;
+
+class LookedThrough : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = ::testing::TempDir() + "/norrsken-XXXXXX";
+    folder_ = mkdtemp(pattern.data());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  /// A plane of this material, seen from straight above and lit by a point or by what else `more` holds.
+  statistics::Picture render(const std::string& bsdf, const std::string& more, RenderOptions options = {}) const {
+    std::ofstream(folder_ / "scene.xml") << R"(<scene version="3.0.0">
+      <integrator type="path"><integer name="max_depth" value="3"/></integrator>
+      <sensor type="perspective">
+        <float name="fov" value="53.13010235415598"/>
+        <transform name="to_world"><lookat origin="0, 0, 4" target="0, 0, 0" up="0, 1, 0"/></transform>
+        <film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="16"/><rfilter type="box"/></film>
+      </sensor>
+      <shape type="rectangle"><transform name="to_world"><scale value="10"/></transform>)"
+                                         << bsdf << "</shape>" << more << "</scene>";
+    if (!options.samples_per_pixel) options.samples_per_pixel = 1024;
+    options.threads = kThreads;
+    return picture_of(render_image(load((folder_ / "scene.xml").string()), options));
+  }
+  statistics::Picture under_point(const std::string& bsdf) const {
+    return render(bsdf, R"(<emitter type="point"><point name="position" value="1, 2, 3"/>)"
+                        R"(<float name="intensity" value="50"/></emitter>)");
+  }
+
+  std::filesystem::path folder_;
+};
+
+std::array<double, 3> mean(const statistics::Picture& picture) {
+  std::array<double, 3> sum{};
+  for (const auto& pixel : picture.pixels) {
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += pixel[k] / static_cast<double>(picture.pixels.size());
+  }
+  return sum;
+}
+
+void expect_mean(const statistics::Picture& picture, const std::array<double, 3>& wanted) {
+  const auto got = mean(picture);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(got[k], wanted[k], kTolerance * wanted[k]) << "channel " << k;
+}
+
+/// Radiance of the plane z = 0 with this shading normal, averaged over the picture; `weight(w)` is a factor on the light
+/// from direction w.
+template <class Weight>
+double tilted_plane(const closed_form::Vec& normal, const Weight& weight) {
+  constexpr int kFine = 256;
+  double sum = 0;
+  for (int y = 0; y < kFine; ++y) {
+    for (int x = 0; x < kFine; ++x) {
+      const closed_form::Vec p{4.0 * (x + 0.5) / kFine - 2, 4.0 * (y + 0.5) / kFine - 2, 0};
+      const closed_form::Vec w = normalize(kLight - p);
+      sum += weight(w) * closed_form::reflected_radiance(
+                             kReflectance, closed_form::point_light_irradiance(kIntensity, kLight, p, normal));
+    }
+  }
+  return sum / (kFine * kFine);
+}
+
+std::string diffuse(const std::string& rgb) {
+  return "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" + rgb + "\"/></bsdf>";
+}
+std::string weighted(const std::string& type, const std::string& name, const std::string& value,
+                     const std::string& inside) {
+  return "<bsdf type=\"" + type + "\"><float name=\"" + name + "\" value=\"" + value + "\"/>" + inside + "</bsdf>";
+}
+
+TEST_F(LookedThrough, ABlendIsTheWeightedMean) {
+  const auto plain = mean(under_point(diffuse("0.6, 0.3, 0.9")));
+  expect_mean(under_point(weighted("blendbsdf", "weight", "0.25", diffuse("0.5, 0.4, 1") + diffuse("0.9, 0, 0.6"))),
+              plain);
+  expect_mean(under_point(weighted("blendbsdf", "weight", "0", diffuse("0.6, 0.3, 0.9") + diffuse("0"))), plain);
+  expect_mean(under_point(weighted("blendbsdf", "weight", "1", diffuse("0") + diffuse("0.6, 0.3, 0.9"))), plain);
+}
+
+TEST_F(LookedThrough, NestedChoicesShareOneNumber) {
+  const auto plain = mean(under_point(diffuse("0.6, 0.3, 0.9")));
+  // 0.5 (0.75 a + 0.25 b) + 0.5 (0.8 c), each probability its own.
+  const std::string left = weighted("blendbsdf", "weight", "0.25", diffuse("0.8, 0.2, 1") + diffuse("0.4, 0.2, 0.8"));
+  const std::string right = weighted("mask", "opacity", "0.8", diffuse("0.625, 0.5, 1"));
+  const double expected[] = {0.5 * 0.7 + 0.25, 0.5 * 0.2 + 0.2, 0.5 * 0.95 + 0.4};
+  expect_mean(under_point(weighted("blendbsdf", "weight", "0.5", left + right)),
+              {plain[0] * expected[0] / 0.6, plain[1] * expected[1] / 0.3, plain[2] * expected[2] / 0.9});
+}
+
+TEST_F(LookedThrough, EveryInstructionSetChoosesAlike) {
+  const std::string bsdf = weighted(
+      "blendbsdf", "weight", "0.3",
+      R"(<bsdf type="mask"><texture name="opacity" type="checkerboard"><transform name="to_uv"><scale value="40"/></transform></texture>)" +
+          diffuse("0.6, 0.3, 0.9") + "</bsdf>" +
+          R"(<bsdf type="normalmap"><rgb name="normalmap" value="0.7, 0.4, 0.9"/>)" + diffuse("0.2, 0.8, 0.4") +
+          "</bsdf>");
+  const std::string sky = R"(<emitter type="constant"/>)";
+  const auto wanted = render(bsdf, sky, {.samples_per_pixel = 16, .isa = "scalar"});
+  const auto got = render(bsdf, sky, {.samples_per_pixel = 16});
+  int different = 0;
+  for (std::size_t i = 0; i < wanted.pixels.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      different += !(std::abs(got.pixels[i][k] - wanted.pixels[i][k]) <= 1e-4 * wanted.pixels[i][k]);
+  }
+  // Where rounding takes a number across a choice's edge.
+  EXPECT_LE(different, 3 * 4);
+}
+
+TEST_F(LookedThrough, AMaskShowsWhatIsBehindIt) {
+  const std::string glow =
+      R"(<shape type="rectangle"><transform name="to_world"><scale value="10"/><translate z="-1"/></transform>
+    <emitter type="area"><rgb name="radiance" value="4, 2, 1"/></emitter></shape>)";
+  expect_mean(render(weighted("mask", "opacity", "0.25", diffuse("0")), glow), {3, 1.5, 0.75});
+  expect_mean(render(R"(<bsdf type="null"/>)", glow), {4, 2, 1});
+  // Half of it, by a texture: the first of the two colours covers two of a checkerboard's four squares.
+  expect_mean(render(R"(<bsdf type="mask"><texture name="opacity" type="checkerboard"><float name="color0" value="1"/>
+    <float name="color1" value="0"/></texture><bsdf type="diffuse"><float name="reflectance" value="0"/></bsdf></bsdf>)",
+                     glow),
+              {2, 1, 0.5});
+}
+
+TEST_F(LookedThrough, NormalMapsTurnTheNormal) {
+  // (0.3, -0.2, 1) as a colour; the rectangle's u runs along x.
+  const double length = std::sqrt(0.09 + 0.04 + 1);
+  const closed_form::Vec n{0.3 / length, -0.2 / length, 1 / length};
+  const auto map = [&](bool shadowing, double x, double y, double z) {
+    return under_point(
+        "<bsdf type=\"normalmap\"><texture name=\"normalmap\" type=\"rawconstant\"><vector name=\"value\" value=\"" +
+        std::to_string((x + 1) / 2) + ", " + std::to_string((y + 1) / 2) + ", " + std::to_string((z + 1) / 2) +
+        "\"/></texture><boolean name=\"use_shadowing_function\" value=\"" + (shadowing ? "true" : "false") + "\"/>" +
+        diffuse("0.6") + "</bsdf>");
+  };
+  const double plain = tilted_plane({0, 0, 1}, [](const closed_form::Vec&) { return 1.0; });
+  expect_mean(map(true, 0, 0, 1), {plain, plain, plain});
+  const double turned = tilted_plane(n, [](const closed_form::Vec&) { return 1.0; });
+  ASSERT_GT(std::abs(turned - plain), 0.02 * plain);
+  expect_mean(map(false, n.x, n.y, n.z), {turned, turned, turned});
+  const double alpha2 = 0.125 * (n.x * n.x + n.y * n.y) / (n.z * n.z);
+  const double shadowed = tilted_plane(
+      n, [&](const closed_form::Vec& w) { return 2 / (1 + std::sqrt(1 + alpha2 * (1 - w.z * w.z) / (w.z * w.z))); });
+  expect_mean(map(true, n.x, n.y, n.z), {shadowed, shadowed, shadowed});
+}
+
+TEST_F(LookedThrough, BumpMapsFollowTheSlopeOfTheirTexture) {
+  Image ramp;
+  ramp.width = 64;
+  ramp.height = 2;
+  for (const char* name : {"R", "G", "B"}) {
+    auto& values = ramp.channel(name).values;
+    for (int i = 0; i < 128; ++i) values[static_cast<std::size_t>(i)] = static_cast<float>(i % 64) / 64.0f;
+  }
+  ASSERT_TRUE(write_image((folder_ / "ramp.exr").string(), ramp));
+  // Heights of 10 u on a plane of side 20: the slope is a half, towards +x.
+  const double length = std::sqrt(1.25);
+  const double wanted = tilted_plane({-0.5 / length, 0, 1 / length}, [](const closed_form::Vec&) { return 1.0; });
+  const auto picture = under_point(R"(<bsdf type="bumpmap"><texture name="any" type="bitmap">
+    <string name="filename" value="ramp.exr"/><boolean name="raw" value="true"/></texture><float name="scale" value="10"/>
+    <boolean name="use_shadowing_function" value="false"/><boolean name="flip_invalid_normals" value="false"/>)" +
+                                   diffuse("0.6") + "</bsdf>");
+  expect_mean(picture, {wanted, wanted, wanted});
+}
+
+}  // namespace
+}  // namespace norrsken::end_to_end
