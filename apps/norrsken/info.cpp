@@ -34,6 +34,8 @@ void print_as_json(const std::string& scene, const SceneInfo& info) {
                                    {"emitter_samples", info.emitter_samples},
                                    {"triangles", info.triangles},
                                    {"spheres", info.spheres},
+                                   {"other_shapes", info.other_shapes},
+                                   {"instances", info.instances},
                                    {"lights", info.lights},
                                    {"bounds_min", info.bounds_min},
                                    {"bounds_max", info.bounds_max},
@@ -54,8 +56,11 @@ void print_as_text(const std::string& scene, const SceneInfo& info) {
   row("integrator", fmt::format("{}, max_depth {}{}, rr_depth {}, {} per hit", info.integrator, info.max_depth,
                                 info.max_depth < 0 ? " (unbounded)" : "", info.rr_depth,
                                 format_plural(info.emitter_samples, "shadow ray")));
-  row("geometry", fmt::format("{}, {}, {}", format_plural(info.triangles, "triangle"),
-                              format_plural(info.spheres, "sphere"), format_plural(info.lights, "light")));
+  std::string geometry =
+      fmt::format("{}, {}", format_plural(info.triangles, "triangle"), format_plural(info.spheres, "sphere"));
+  if (info.other_shapes > 0) geometry += ", " + format_plural(info.other_shapes, "other shape");
+  if (info.instances > 0) geometry += ", " + format_plural(info.instances, "instance");
+  row("geometry", geometry + ", " + format_plural(info.lights, "light"));
   row("bounds",
       fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", info.bounds_min[0], info.bounds_min[1],
                   info.bounds_min[2], info.bounds_max[0], info.bounds_max[1], info.bounds_max[2]));

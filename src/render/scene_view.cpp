@@ -19,7 +19,7 @@ constexpr struct {
 AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes,
                        Diagnostics& diagnostics) {
   const std::size_t primitives = tables.surfaces.size();
-  const bool embree_only = !tables.analytics.empty() || !tables.instances.empty();
+  const bool embree_only = !tables.analytics.empty() || tables.group_count > 0;
   const AccelKind automatic = primitives <= planes_up_to(lanes) && !embree_only ? AccelKind::planes : AccelKind::embree;
   if (name == "auto") return automatic;
   for (const auto& accel : kAccels) {
@@ -27,7 +27,7 @@ AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::
     if (accel.kind != AccelKind::embree && embree_only) {
       diagnostics.error({},
                         "accelerator '" + name + "' knows triangles and spheres only, and this scene has " +
-                            (tables.analytics.empty() ? "instances" : "other shapes"),
+                            (tables.analytics.empty() ? "groups" : "other shapes"),
                         "auto or embree");
       return automatic;
     }

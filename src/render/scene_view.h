@@ -12,7 +12,8 @@
 namespace norrsken {
 
 /// The accelerator by name ("auto", "planes", "moller_trumbore", "embree"); "auto" goes by the number of primitives and
-/// lanes. Complains about unknown names and about planes for a large scene, and falls back to auto's choice.
+/// lanes. Complains about unknown names, planes for a large scene, and anything but Embree for shapes with a formula or
+/// groups of shapes, and falls back to auto's choice.
 AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes,
                        Diagnostics& diagnostics);
 const char* accel_name(AccelKind kind);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "tests/end_to_end/rendering.h"
 
@@ -32,6 +33,13 @@ TEST(Instances, LookLikeCopies) {
   const Image shared = render_image(load_test_scene("instances/shared.xml"), {.threads = kThreads});
   const Image apart = render_image(load_test_scene("instances/apart.xml"), {.threads = kThreads});
   expect_same_picture(shared, apart, "shared and apart");
+}
+
+TEST(Instances, AreForEmbreeAlone) {
+  const Scene scene = load_test_scene("instances/shared.xml");
+  for (const char* accelerator : {"planes", "moller_trumbore"}) {
+    EXPECT_THROW(render_image(scene, {.threads = kThreads, .accelerator = accelerator}), std::runtime_error);
+  }
 }
 
 TEST(Scale, ChangesNothing) {
