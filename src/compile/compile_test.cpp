@@ -44,9 +44,10 @@ TEST(Compile, RefusesWhatDoesNotBelongIntoAScene) {
 }
 
 TEST(Compile, BsdfsThatNobodyRefersToAreCheckedToo) {
-  EXPECT_THAT(compile_elements(kSensor + kShape + kEmitter + R"(<bsdf type="mask" id="unused"/>)").messages(),
-              ElementsAre("error: bsdf 'mask' is not supported yet [conductor, dielectric, diffuse, roughconductor, "
-                          "roughdielectric, thindielectric, twosided]"));
+  EXPECT_THAT(compile_elements(kSensor + kShape + kEmitter + R"(<bsdf type="hair" id="unused"/>)").messages(),
+              ElementsAre("error: bsdf 'hair' is not supported yet [blendbsdf, bumpmap, conductor, dielectric, "
+                          "diffuse, mask, normalmap, "
+                          "null, roughconductor, roughdielectric, thindielectric, twosided]"));
 }
 
 TEST(Compile, TellsAllThatIsWrongInOneRun) {
