@@ -34,7 +34,9 @@ struct LocalSurface {
 
 /// False for shapes whose area nothing samples: as lights, only rays find them.
 template <class Model>
-inline constexpr bool kCanBeSampled = requires(Vec2f u) { Model::sample(u); };
+inline constexpr bool kCanBeSampled = requires(Vec2f u) {
+  Model::sample(u);
+};
 
 NORRSKEN_INLINE LocalSurface select(Mask m, const LocalSurface& a, const LocalSurface& b) {
   return {select(m, a.position, b.position), select(m, a.normal, b.normal), select(m, a.uv, b.uv),
