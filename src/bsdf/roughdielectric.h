@@ -64,6 +64,8 @@ struct RoughDielectric {
             select(f.reflects, Float(1.0f), p.eta)};
   }
 
+  static NORRSKEN_INLINE Float refracted_eta(const Parameters& p) { return p.eta; }
+
   static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.specular_transmittance; }
 
  private:

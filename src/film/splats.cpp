@@ -21,19 +21,21 @@ void Splats::cover(double position, std::uint32_t size, Footprint& footprint) co
     footprint.weights.push_back(1);
     return;
   }
-  const float *nodes = filter_.data(), *values = nodes + record.nodes, *end = values;
+  const float *nodes = filter_.data(), *values = nodes + record.nodes;
   const float* integrals = nodes + 3 * record.nodes + (record.cells + 1) + (record.edges + 1);  // those with signs
   const auto integral_to_edge = [&](std::uint32_t pixels) {
     return static_cast<double>(integrals[settings_.sample_border ? record.edges : std::min(pixels, record.edges)]);
   };
-  const double radius = static_cast<double>(nodes[record.nodes - 1]);
+  const std::uint32_t last = record.nodes - 1;
+  const double radius = static_cast<double>(nodes[last]);
   const double low = std::ceil(position - radius - 0.5), high = std::floor(position + radius - 0.5);
   footprint.first = static_cast<std::uint32_t>(std::max(low, 0.0));
   for (std::uint32_t pixel = footprint.first; pixel < size && static_cast<double>(pixel) <= high; ++pixel) {
     const double distance = std::min(std::abs(position - (pixel + 0.5)), radius);
-    // Between the last node that is not beyond it and the next.
-    const auto next = std::clamp<std::ptrdiff_t>(std::upper_bound(nodes, end, static_cast<float>(distance)) - nodes, 1,
-                                                 record.nodes - 1);
+    // The nodes around it: they are spread evenly but for those where the filter changes its sign.
+    auto next = static_cast<std::uint32_t>(std::clamp(distance / radius * (last - 1), 1.0, static_cast<double>(last)));
+    while (next < last && static_cast<double>(nodes[next]) < distance) ++next;
+    while (next > 1 && static_cast<double>(nodes[next - 1]) > distance) --next;
     const double x0 = static_cast<double>(nodes[next - 1]), x1 = static_cast<double>(nodes[next]);
     const double f0 = static_cast<double>(values[next - 1]), f1 = static_cast<double>(values[next]);
     const double value = f0 + (f1 - f0) * (distance - x0) / (x1 - x0);

@@ -8,15 +8,13 @@ namespace norrsken::NORRSKEN_ISA {
 template <class Model>
 NORRSKEN_INLINE void add_emission_of_kind(LightKind kind, const SceneView& scene, UInt light, UInt kinds,
                                           Vec2f position, Vec2f direction, Mask active, EmittedRay& ray) {
-  if constexpr (requires { &Model::emit; }) {
-    const Mask of_kind = active & (kinds == UInt(static_cast<std::uint32_t>(kind)));
-    if (none(of_kind)) return;
-    const EmittedRay r = Model::emit(scene, gather_light(scene.lights, light, of_kind), position, direction, of_kind);
-    ray.origin = select(of_kind, r.origin, ray.origin);
-    ray.direction = select(of_kind, r.direction, ray.direction);
-    ray.weight = select(of_kind, r.weight, ray.weight);
-    ray.valid |= of_kind & r.valid;
-  }
+  const Mask of_kind = active & (kinds == UInt(static_cast<std::uint32_t>(kind)));
+  if (none(of_kind)) return;
+  const EmittedRay r = Model::emit(scene, gather_light(scene.lights, light, of_kind), position, direction, of_kind);
+  ray.origin = select(of_kind, r.origin, ray.origin);
+  ray.direction = select(of_kind, r.direction, ray.direction);
+  ray.weight = select(of_kind, r.weight, ray.weight);
+  ray.valid |= of_kind & r.valid;
 }
 
 /// `pick` chooses the light, `position` and `direction` the ray; the weight counts the choice.

@@ -25,6 +25,14 @@ struct SphereAreaLight {
     return sin2 / (Float(1.0f) + sqrt(max(Float(1.0f) - sin2, Float(0.0f))));
   }
 
+  /// Where the cone is sampled. The sphere's own surface is not, wherever rounding puts a point of it: it would light
+  /// itself.
+  static NORRSKEN_INLINE Mask is_outside(const Light& light, Float distance2) {
+    const Float radius = light.edge1.x;
+    const Float reach = fma(largest(light.origin) + radius, Float(kOffsetUlps), radius);
+    return (!(light.edge1.y > Float(0.0f))) & (distance2 > reach * reach);
+  }
+
   /// edge1 = (radius, 1 for a flipped normal, 0). A flipped sphere shines inwards.
   static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f u,
                                             Mask active) {
@@ -33,8 +41,7 @@ struct SphereAreaLight {
     const Vec3f axis = light.origin - reference;
     const Float distance2 = dot(axis, axis);
     const Float sin2 = radius * radius / distance2;
-    // By the light's side, not by where rounding put the reference: a flipped sphere lights itself too.
-    const Mask cone = (!flipped) & (sin2 < Float(1.0f));
+    const Mask cone = is_outside(light, distance2);
 
     // A direction of the cone, then its entry point.
     const Float h = one_minus_cos(sin2);
@@ -67,12 +74,12 @@ struct SphereAreaLight {
                                       const Vec3f& direction, Float distance, Mask) {
     const Float radius = light.edge1.x;
     const Vec3f axis = light.origin - reference;
-    const Float sin2 = radius * radius / dot(axis, axis);
+    const Float distance2 = dot(axis, axis), sin2 = radius * radius / distance2;
     const Vec3f normal = (fma(direction, distance, -axis)) * (Float(1.0f) / radius);
     const Float area_pdf =
         pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, abs(dot(direction, normal)));
-    const Mask cone = (!(light.edge1.y > Float(0.0f))) & (sin2 < Float(1.0f));
-    return select(cone, cone_pdf_sa(one_minus_cos(sin2)), area_pdf);
+    return select(is_outside(light, distance2), cone_pdf_sa(one_minus_cos(sin2)),
+                  zero_unless(light.edge1.y > Float(0.0f), area_pdf));
   }
 
   /// Uniform over the area, cosine-weighted over directions.

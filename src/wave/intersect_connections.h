@@ -3,7 +3,7 @@
 
 #include "accel/intersect.h"
 #include "math/warp.h"
-#include "wave/records.h"
+#include "wave/skip_emitters.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -23,6 +23,11 @@ NORRSKEN_INLINE void push(Queue& q, const Connection& connection, Mask m) {
   push(q, connection.ray, m);
 }
 
+/// Whether the primitive is part of a light, on whichever side.
+NORRSKEN_INLINE Mask is_emitter(const SceneView& scene, UInt primitive, Mask active) {
+  return gather_uint(surface_floats(scene) + 6, record_index(primitive), active) != UInt(kNone);
+}
+
 /// Unlike a light, the camera need not be where the scene is: walls that cannot come between two points of the scene
 /// (docs/pipeline.md) can hide it from the camera.
 NORRSKEN_INLINE Mask hidden_from_camera(const SceneView& scene, const ShadowRay& ray, Mask active) {
@@ -30,12 +35,39 @@ NORRSKEN_INLINE Mask hidden_from_camera(const SceneView& scene, const ShadowRay&
   return active & (intersect_closest_lanes(scene, false, ray.origin, ray.direction, active).t < ray.t_max);
 }
 
+/// The same for a camera that looks through the surfaces of emitters.
+inline Mask hidden_by_others_than_emitters(const SceneView& scene, const ShadowRay& ray, Mask active) {
+  Mask hidden = Float(1.0f) < Float(0.0f), open = active;
+  Hit hit{};
+  hit.ray.origin = ray.origin, hit.ray.direction = ray.direction;
+  Float rest = ray.t_max;
+  for (int skipped = 0; skipped < kMostSkipped && any(open); ++skipped) {
+    const ClosestHit closest = intersect_closest_lanes(scene, false, hit.ray.origin, hit.ray.direction, open);
+    open &= closest.t < rest;
+    hit.t = closest.t;
+    hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
+    hit.instance = closest.instance;
+    const Mask emitter = open & is_emitter(scene, hit.primitive, open);
+    hidden |= open & !emitter;
+    open = emitter;
+    if (none(open)) break;
+    const SurfacePoint surface = make_surface_point(scene, hit, open);
+    const Vec3f behind = spawn_origin(surface.position, surface.normal, surface.offset, Float(-1.0f));
+    hit.ray.origin = select(open, behind, hit.ray.origin);
+    rest = select(open, rest - closest.t, rest);
+  }
+  return hidden;
+}
+
 inline void intersect_connections(const SceneView& scene, const Queue& connections, Queue& splats) {
+  const bool look_through = scene.integrator.hide_emitters && scene.any_area_light;
   for (std::uint32_t i = 0; i < connections.count; i += kLanes) {
     const Mask active = first_lanes(connections.count - i);
     const Connection connection = load_connection(connections, i);
     const ShadowRay& ray = connection.ray;
-    const Mask visible = active & !hidden_from_camera(scene, ray, active);
+    const Mask hidden =
+        look_through ? hidden_by_others_than_emitters(scene, ray, active) : hidden_from_camera(scene, ray, active);
+    const Mask visible = active & !hidden;
     if (none(visible)) continue;
     const Compaction c = make_compaction(visible);
     compress_store(splats.field(kSplatFilmX) + splats.count, connection.film.x, c);

@@ -67,6 +67,7 @@ NORRSKEN_INLINE void connect_to_camera(const SceneView& scene, const Hit& hit, c
                                        Queue& connections, Mask active) {
   const CameraConnection camera = connect_point(scene, surface.position, lens);
   active &= camera.valid;
+  if (scene.integrator.hide_emitters && scene.any_area_light) active &= !is_emitter(scene, hit.primitive, active);
   if (none(active)) return;
   const Float side = dot(camera.target - surface.position, surface.normal);
   const Vec3f origin = spawn_origin(surface.position, surface.normal, surface.offset, side);

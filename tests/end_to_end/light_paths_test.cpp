@@ -51,17 +51,17 @@ TEST_P(LightPaths, AgreeWithPathsFromTheCamera) {
   EXPECT_TRUE(judge.verdict());
 }
 
-INSTANTIATE_TEST_SUITE_P(, LightPaths,
-                         ::testing::Values(Case{"room", {}}, Case{"direct", {{"max_depth", "2"}}},
-                                           Case{"roulette", {{"max_depth", "-1"}, {"rr_depth", "1"}}},
-                                           Case{"hidden_emitters", {{"hide_emitters", "true"}}},
-                                           Case{"outdoors", {{"contents", "outdoors"}}},
-                                           Case{"near_far", {{"sensor", "near_far"}}, 0.015},
-                                           Case{"thinlens", {{"sensor", "thinlens"}}, 0.015},
-                                           Case{"orthographic", {{"sensor", "orthographic"}}, 0.03},
-                                           Case{"crop", {{"sensor", "crop"}}, 0.02, 8},
-                                           Case{"border", {{"sensor", "border"}}, 0.02}),
-                         kParamName);
+INSTANTIATE_TEST_SUITE_P(
+    , LightPaths,
+    ::testing::Values(Case{"room", {}}, Case{"direct", {{"max_depth", "2"}}},
+                      Case{"roulette", {{"max_depth", "-1"}, {"rr_depth", "1"}}},
+                      Case{"hidden_emitters", {{"hide_emitters", "true"}}},
+                      Case{"outdoors", {{"contents", "outdoors"}}}, Case{"glass", {{"contents", "glass"}}, 0.03},
+                      Case{"lights", {{"contents", "lights"}}, 0.03}, Case{"near_far", {{"sensor", "near_far"}}, 0.015},
+                      Case{"thinlens", {{"sensor", "thinlens"}}, 0.015},
+                      Case{"orthographic", {{"sensor", "orthographic"}}, 0.03},
+                      Case{"crop", {{"sensor", "crop"}}, 0.02, 8}, Case{"border", {{"sensor", "border"}}, 0.02}),
+    kParamName);
 
 TEST(LightPathsOnPlane, HaveTheLightOfTheClosedForm) {
   const Scene scene = load_test_scene_with("plane.xml", {.parameters = {{"light", "all"}}, .integrator = "ptracer"});

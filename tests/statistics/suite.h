@@ -48,6 +48,8 @@ inline constexpr Family kSuite[] = {
     {"light_paths.roulette", 3 * (1 + 4)},
     {"light_paths.hidden_emitters", 3 * (1 + 4)},
     {"light_paths.outdoors", 3 * (1 + 4)},
+    {"light_paths.glass", 3 * (1 + 4)},
+    {"light_paths.lights", 3 * (1 + 4)},
     {"light_paths.near_far", 3 * (1 + 4)},
     {"light_paths.thinlens", 3 * (1 + 4)},
     {"light_paths.orthographic", 3 * (1 + 4)},
