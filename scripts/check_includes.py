@@ -17,7 +17,8 @@ import tempfile
 FAMILIES = ["bsdf", "camera", "integrator", "light", "rfilter", "sampler", "shape", "texture"]
 
 # Mathematics that several models of a family use.
-SHARED = {"bsdf/fresnel.h", "bsdf/microfacet.h", "bsdf/resolved.h", "camera/connect.h", "light/emit.h",
+SHARED = {"bsdf/coat.h", "bsdf/fresnel.h", "bsdf/microfacet.h", "bsdf/principled_lobes.h",
+          "bsdf/resolved.h", "camera/connect.h", "light/emit.h",
           "sampler/dimensions.h", "sampler/hash.h"}
 
 # Loops over the kinds of a family, besides FAMILY/FAMILY.h.

@@ -8,8 +8,12 @@
 #include "bsdf/dielectric.h"
 #include "bsdf/diffuse.h"
 #include "bsdf/null.h"
+#include "bsdf/plastic.h"
+#include "bsdf/principled.h"
+#include "bsdf/principledthin.h"
 #include "bsdf/roughconductor.h"
 #include "bsdf/roughdielectric.h"
+#include "bsdf/roughplastic.h"
 #include "bsdf/thindielectric.h"
 #include "compile/compile_testing.h"
 

@@ -44,10 +44,11 @@ TEST(Compile, RefusesWhatDoesNotBelongIntoAScene) {
 }
 
 TEST(Compile, BsdfsThatNobodyRefersToAreCheckedToo) {
-  EXPECT_THAT(compile_elements(kSensor + kShape + kEmitter + R"(<bsdf type="hair" id="unused"/>)").messages(),
-              ElementsAre("error: bsdf 'hair' is not supported yet [blendbsdf, bumpmap, conductor, dielectric, "
-                          "diffuse, mask, normalmap, "
-                          "null, roughconductor, roughdielectric, thindielectric, twosided]"));
+  EXPECT_THAT(
+      compile_elements(kSensor + kShape + kEmitter + R"(<bsdf type="hair" id="unused"/>)").messages(),
+      ElementsAre("error: bsdf 'hair' is not supported yet [blendbsdf, bumpmap, conductor, dielectric, diffuse, "
+                  "mask, normalmap, null, plastic, principled, principledthin, roughconductor, "
+                  "roughdielectric, roughplastic, thindielectric, twosided]"));
 }
 
 TEST(Compile, TellsAllThatIsWrongInOneRun) {

@@ -1,0 +1,163 @@
+// Model       Disney's artist-friendly material: metal, plastic and glass in one, with sheen and a clear coat.
+// Parameters  base_color (linear sRGB or texture, 0 to 1, default 0.5); roughness (number or texture, 0 to 1, default 0.5);
+//             anisotropic, metallic, spec_trans, spec_tint, sheen, sheen_tint, flatness, clearcoat, clearcoat_gloss
+//             (numbers or textures, 0 to 1, default 0); eta (number greater than 0) or else specular (0 to 1, default 0.5);
+//             diffuse_reflectance_sampling_rate, main_specular_sampling_rate, clearcoat_sampling_rate (numbers from 0,
+//             default 1)
+// Measure     pdf_sa: cosine-weighted, from the clear coat's normals, and from visible normals with each facet's share of
+//             reflected light
+// Source      Burley 2012 and 2015, see principled_lobes.h; microfacets: Walter et al. 2007, equations 20 and 21
+// Departures  none from Mitsuba 3: neither subsurface scattering nor absorption inside; sheen and clear coat may give back
+//             more than arrives; an interface that reflects nothing (specular 0) has no metal either
+#pragma once
+
+#include "bsdf/bsdf.h"
+#include "bsdf/principled_lobes.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+struct Principled {
+  static constexpr bool kDelta = false;
+  static constexpr bool kUsesLobe = true;
+
+  struct Parameters {
+    Vec3f base_color;
+    Microfacet facets;
+    ClearcoatNormals coat;
+    Float roughness, metallic, spec_tint, sheen, sheen_tint, flatness, clearcoat;
+    Float base, glass;                                  ///< weights of what is diffuse and what transmits
+    Float eta;                                          ///< of the other side over this side
+    Float diffuse_prob, clearcoat_prob, specular_prob;  ///< of sampling each lobe
+    Mask front;                                         ///< else inside, where there are facets only
+  };
+
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& r) {
+    Parameters p;
+    p.base_color = r.color(0), p.roughness = r.scalar(4);
+    p.facets = facets_of(p.roughness, r.scalar(6));
+    p.metallic = r.scalar(8);
+    const Float spec_trans = r.scalar(10), dielectric = Float(1.0f) - p.metallic;
+    p.base = dielectric * (Float(1.0f) - spec_trans), p.glass = dielectric * spec_trans;
+    p.spec_tint = r.scalar(12), p.sheen = r.scalar(14), p.sheen_tint = r.scalar(16), p.flatness = r.scalar(18);
+    p.clearcoat = r.scalar(20);
+    const Float coat_alpha = mix(Float(0.1f), Float(0.001f), r.scalar(22));
+    p.coat = {coat_alpha * coat_alpha};
+    p.eta = r.number(24), p.front = r.number(25) == Float(0.0f);
+    const Float behind = select(p.glass > Float(0.0f), Float(1.0f), Float(0.0f));
+    const Float diffuse = zero_unless(p.front, p.base * r.number(26));
+    const Float specular = select(p.front, r.number(27), behind);
+    const Float clearcoat = zero_unless(p.front, Float(0.25f) * p.clearcoat * r.number(28));
+    const Float scale = Float(1.0f) / max(diffuse + specular + clearcoat, Float(1e-20f));
+    p.diffuse_prob = diffuse * scale, p.specular_prob = specular * scale, p.clearcoat_prob = clearcoat * scale;
+    return p;
+  }
+
+  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
+    return evaluate(p, wo, wi, facet_between(p, wo, wi));
+  }
+
+  static NORRSKEN_INLINE Float pdf_sa(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
+    return pdf_sa(p, wo, wi, facet_between(p, wo, wi));
+  }
+
+  static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float lobe, Vec2f direction) {
+    const Float above_coat = p.diffuse_prob + p.clearcoat_prob;
+    const Mask diffuse = lobe < p.diffuse_prob, clearcoat = (!diffuse) & (lobe < above_coat);
+    Vec3f m = p.facets.sample_visible(wo, direction);
+    if (any(clearcoat)) m = select(clearcoat, p.coat.sample(direction), m);
+    const Float cos_o = dot(wo, m);
+    const FresnelDielectric fresnel = fresnel_dielectric(cos_o, p.eta);
+    const Float among_facets = (lobe - above_coat) / max(p.specular_prob, Float(1e-20f));
+    const Mask refracts = (!(diffuse | clearcoat)) & (among_facets < transmitted_share(p, fresnel.reflectance));
+    Vec3f wi = select(refracts, refract(wo, m, cos_o, fresnel.cos_t, p.eta), reflect(wo, m, cos_o));
+    wi = select(diffuse, warp_to_cosine_hemisphere(direction), wi);
+
+    const Facet f = facet_between(p, wo, wi);
+    const Float pdf = pdf_sa(p, wo, wi, f);
+    // Facets that face away may lead where another lobe has a density.
+    const Mask valid = (pdf > Float(0.0f)) & (diffuse | f.possible) & (refracts ^ (wi.z > Float(0.0f)));
+    return {wi, evaluate(p, wo, wi, f) * (Float(1.0f) / select(valid, pdf, Float(1.0f))), pdf, valid,
+            select(refracts, p.eta, Float(1.0f))};
+  }
+
+  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.base_color; }
+
+ private:
+  /// A facet that sends light from wi to wo.
+  struct Facet {
+    Vec3f m;
+    Mask reflects, possible;
+    Float cos_o, cos_i;  ///< of wo and wi to m; that of wi is negative for refraction
+    Float cos_t, reflectance, jacobian;
+  };
+
+  static NORRSKEN_INLINE Facet facet_between(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
+    Facet f;
+    f.reflects = wi.z > Float(0.0f);
+    const Vec3f m = normalize(fma(wi, select(f.reflects, Float(1.0f), p.eta), wo));
+    f.m = m * copysign(Float(1.0f), m.z);
+    f.cos_o = dot(wo, f.m), f.cos_i = dot(wi, f.m);
+    f.possible = (wo.z > Float(0.0f)) & (f.cos_o > Float(0.0f)) & (f.cos_i * wi.z > Float(0.0f));
+    const FresnelDielectric fresnel = fresnel_dielectric(f.cos_o, p.eta);
+    f.reflectance = fresnel.reflectance, f.cos_t = fresnel.cos_t;
+    // Walter et al. 2007, equations 14 and 17.
+    const Float sum = fma(p.eta, f.cos_i, f.cos_o), cos_i = abs(f.cos_i);
+    f.jacobian = select(f.reflects, Float(0.25f) / cos_i, p.eta * p.eta * cos_i / (sum * sum));
+    return f;
+  }
+
+  static NORRSKEN_INLINE Float transmitted_share(const Parameters& p, Float reflectance) {
+    return select(p.front, p.glass, Float(1.0f)) * (Float(1.0f) - reflectance);
+  }
+
+  static NORRSKEN_INLINE Float pdf_sa(const Parameters& p, const Vec3f& wo, const Vec3f& wi, const Facet& f) {
+    const Float transmitted = transmitted_share(p, f.reflectance);
+    const Float share = p.specular_prob * select(f.reflects, Float(1.0f) - transmitted, transmitted);
+    Float facets = share * p.facets.visible_pdf_sa(wo, f.m);
+    const Mask coated = f.reflects & (p.clearcoat_prob > Float(0.0f));
+    if (any(coated)) facets += zero_unless(coated, p.clearcoat_prob * p.coat.density(f.m) * f.m.z);
+    const Float diffuse = zero_unless(wo.z > Float(0.0f), p.diffuse_prob * cosine_hemisphere_pdf_sa(wi.z));
+    return zero_unless(f.possible & (facets > Float(0.0f)), facets * f.jacobian) + diffuse;
+  }
+
+  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi, const Facet& f) {
+    const Float masked = p.facets.density(f.m) * p.facets.masking(wo, f.m) * p.facets.masking(wi, f.m);
+    const Mask reflects = f.possible & f.reflects & (p.eta != Float(1.0f));
+    const Float reflected = zero_unless(reflects, masked * Float(0.25f) / wo.z);
+    Vec3f value = reflectance(p, f) * reflected;
+
+    const Mask refracts = f.possible & !f.reflects & (p.glass > Float(0.0f));
+    if (any(refracts)) {
+      // Radiance loses the eta^2 that the Jacobian gains.
+      const Float facing = f.cos_o * f.jacobian / (p.eta * p.eta * wo.z);
+      const Float through = zero_unless(refracts, p.glass * (Float(1.0f) - f.reflectance) * masked * facing);
+      value = fma(Vec3f{sqrt(p.base_color.x), sqrt(p.base_color.y), sqrt(p.base_color.z)}, through, value);
+    }
+
+    const Mask coated = f.possible & f.reflects & p.front & (p.clearcoat > Float(0.0f));
+    if (any(coated)) {
+      const Microfacet masks{Float(0.25f), Float(0.25f), p.facets.ggx};
+      const Float fresnel = mix(schlick_weight(f.cos_o, f.cos_t, p.eta), Float(1.0f), Float(0.04f));
+      const Float coat = Float(0.25f) * p.clearcoat * fresnel * p.coat.density(f.m) * masks.masking(wo, f.m) *
+                         masks.masking(wi, f.m) * wi.z;
+      value = value + grey(zero_unless(coated, coat));
+    }
+
+    const Mask above = (wo.z > Float(0.0f)) & f.reflects & p.front;
+    const Float diffuse = p.base * Float(kInvPi) * diffuse_shape(p.roughness, p.flatness, wo.z, wi.z, f.cos_i);
+    const Vec3f sheen = sheen_color(p.base_color, p.sheen * (Float(1.0f) - p.metallic), p.sheen_tint, f.cos_i);
+    return select(above, fma(fma(p.base_color, diffuse, sheen), wi.z, value), value);
+  }
+
+  /// Dielectric, metal by Schlick's approximation, and a tinted dielectric by the same.
+  static NORRSKEN_INLINE Vec3f reflectance(const Parameters& p, const Facet& f) {
+    const Float weight = schlick_weight(f.cos_o, f.cos_t, p.eta), dielectric = Float(1.0f) - p.metallic;
+    const Vec3f white = grey(Float(1.0f));
+    const Vec3f tinted = mix(tint_of(p.base_color) * normal_reflectance(p.eta), white, weight);
+    const Vec3f mixed = mix(grey(f.reflectance), tinted, p.spec_tint) * dielectric;
+    const Vec3f outside = fma(mix(p.base_color, white, weight), p.metallic, mixed);
+    return select(p.front, outside, grey(p.glass * f.reflectance));
+  }
+};
+
+}  // namespace norrsken::NORRSKEN_ISA
