@@ -80,6 +80,8 @@ struct Principled {
             select(refracts, p.eta, Float(1.0f))};
   }
 
+  static NORRSKEN_INLINE Float refracted_eta(const Parameters& p) { return p.eta; }
+
   static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.base_color; }
 
  private:
