@@ -78,8 +78,11 @@ void register_stages(const KernelEntry& kernels) {
     static std::vector<double> sums(6 * 800 * 800);
     static std::vector<std::uint32_t> counts(800 * 800);
     DroppedSamples dropped;
-    kernels.accumulate_film(w.job, SamplerKind::independent, w.memory.slots,
-                            {sums.data(), counts.data(), nullptr, 800, 800}, dropped);
+    FilmView film;
+    film.sums = sums.data();
+    film.counts = counts.data();
+    film.width = film.height = 800;
+    kernels.accumulate_film(w.job, SamplerKind::independent, w.memory.slots, film, dropped);
     return w.job.slot_count();
   });
 }

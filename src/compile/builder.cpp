@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 
 #include "base/memory.h"
 #include "base/text.h"
@@ -293,7 +292,8 @@ void Builder::compile_emitter(const Node& node, std::uint32_t shape) {
 
 Material Builder::material_of(Parameters& shape) {
   if (const Node::Child* child = shape.child("bsdf")) return bsdf(*child->node);
-  // Mitsuba's material for shapes that name none.
+  // Mitsuba's material for shapes that name none: lights are black, others grey.
+  if (shape.child("emitter") != nullptr) return {};
   if (!default_material_)
     default_material_ =
         Material{.front = add_material(BsdfKind::diffuse, ParameterBlock().add(ColorParameter{glm::dvec3(0.5)}))};
@@ -337,12 +337,7 @@ std::uint32_t Builder::shape_group(const Node& node) {
   return groups_[&node] = geometry_.end_group();
 }
 
-void Builder::choose_lights() {
-  const double cross_section = std::numbers::pi * double{tables().radius} * double{tables().radius};
-  std::vector<double> powers;
-  for (const LightPower& p : light_powers_) powers.push_back(p.own + p.per_cross_section * cross_section);
-  choose_lights_by_power(tables().lights, powers);
-}
+void Builder::choose_lights() { norrsken::choose_lights(tables().lights, shares_of_choice(light_powers_)); }
 
 void Builder::summarise() {
   const SceneTables& t = tables();

@@ -66,7 +66,9 @@ NORRSKEN_INLINE Light gather_light(const LightRecord* records, UInt index, Mask 
 /// the lights' own.
 NORRSKEN_INLINE UInt light_texture(const SceneView& scene, UInt parameters, Mask active) {
   if (scene.texture_kinds == 0) return UInt(0u);
-  return gather_uint(scene.parameters, parameters, active & (parameters != UInt(kNone)));
+  const Mask has_some = active & (parameters != UInt(kNone));
+  // Lanes that gather nothing hold anything.
+  return select(has_some, gather_uint(scene.parameters, parameters, has_some), UInt(0u));
 }
 
 /// Alias method (Walker 1977, Vose 1991): u.x picks a column, u.y one of its two lights. One number for both would

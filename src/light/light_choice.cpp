@@ -31,16 +31,31 @@ LightPower environment_power(const glm::dvec3& radiance) {
   return {.per_cross_section = 4 * std::numbers::pi * luminance_of(radiance)};
 }
 
-void choose_lights_by_power(std::span<LightRecord> lights, std::span<const double> powers) {
+std::vector<double> shares_of_choice(std::span<const LightPower> lights) {
+  double own_total = 0, own_count = 0;
+  for (const LightPower& light : lights) {
+    own_total += light.own;
+    own_count += light.own > 0 ? 1 : 0;
+  }
+  std::vector<double> shares;
+  for (const LightPower& light : lights) {
+    double share = light.per_cross_section > 0 ? 1 : 0;
+    if (light.own > 0) share += 0.5 * light.own / own_total + 0.5 / own_count;
+    shares.push_back(share);
+  }
+  return shares;
+}
+
+void choose_lights(std::span<LightRecord> lights, std::span<const double> shares) {
   double total = 0;
-  for (const double power : powers) total += power;
+  for (const double share : shares) total += share;
   const auto count = static_cast<double>(lights.size());
 
   // Each light's probability in units of a column of the table, sorted into columns with room and columns too full.
   std::vector<double> level(lights.size());
   std::vector<std::uint32_t> small, large;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    level[i] = total > 0 ? powers[i] / total * count : 1;
+    level[i] = total > 0 ? shares[i] / total * count : 1;
     lights[i].prob = static_cast<float>(level[i] / count);
     lights[i].alias_prob = 1;
     lights[i].alias = i;

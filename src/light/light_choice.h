@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 #include <span>
+#include <vector>
 
 #include "tables/scene_tables.h"
 
@@ -27,10 +28,17 @@ LightPower directional_power(const glm::dvec3& irradiance);
 /// 4 pi L for each unit of cross-section, for an environment of (mean) radiance L.
 LightPower environment_power(const glm::dvec3& radiance);
 
+/// How often each light should be chosen, in proportion. Each light around the scene has as large a share as all lights
+/// in it together, because how much of its power arrives is not known; of those in it, half is dealt out by power and
+/// half evenly, so that a weak light nearby is not left to chance. What has no power gets nothing.
+/// Source: the even split between infinite lights and the others is that of pbrt-v4 (Pharr, Jakob, Humphreys, section
+/// 12.6.3).
+std::vector<double> shares_of_choice(std::span<const LightPower> lights);
+
 /// Fills `prob`, `alias_prob` and `alias` of every record so that a light is chosen with probability proportional to
-/// its power, which `powers` has for each; uniformly if none has any.
+/// its share; uniformly if none has any.
 ///
 /// Source: Vose 1991, A Linear Algorithm for Generating Random Numbers with a Given Distribution.
-void choose_lights_by_power(std::span<LightRecord> lights, std::span<const double> powers);
+void choose_lights(std::span<LightRecord> lights, std::span<const double> shares);
 
 }  // namespace norrsken

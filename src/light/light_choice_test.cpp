@@ -12,7 +12,7 @@ namespace {
 
 std::vector<LightRecord> chosen_by(const std::vector<double>& powers) {
   std::vector<LightRecord> lights(powers.size());
-  choose_lights_by_power(lights, powers);
+  choose_lights(lights, powers);
   return lights;
 }
 
@@ -68,7 +68,23 @@ TEST(LightChoice, WithoutAnyPowerAllAreAlike) {
   for (const double p : probabilities_of_table(lights)) EXPECT_EQ(p, 0.25);
 }
 
-TEST(LightChoice, NoLightsAreNoTrouble) { choose_lights_by_power({}, {}); }
+TEST(LightChoice, NoLightsAreNoTrouble) { choose_lights({}, {}); }
+
+TEST(LightChoice, HalfOfTheChoiceIsByPowerAndHalfIsEven) {
+  const std::vector<LightPower> lights = {{.own = 9}, {.own = 1}, {.own = 0}};
+  const auto shares = shares_of_choice(lights);
+  EXPECT_NEAR(shares[0], 0.7, 1e-12);
+  EXPECT_NEAR(shares[1], 0.3, 1e-12);
+  EXPECT_EQ(shares[2], 0);
+}
+
+TEST(LightChoice, WhatSurroundsTheSceneIsChosenAsOftenAsAllThatIsInIt) {
+  const std::vector<LightPower> lights = {{.own = 3}, {.per_cross_section = 1e9}, {.own = 3}, {.per_cross_section = 1}};
+  const auto shares = shares_of_choice(lights);
+  EXPECT_NEAR(shares[0] + shares[2], 1, 1e-12);
+  EXPECT_EQ(shares[1], 1);
+  EXPECT_EQ(shares[3], 1);
+}
 
 TEST(LightPower, IsLuminanceTimesAreaTimesSolidAngle) {
   EXPECT_NEAR(surface_power(4, glm::dvec3(10)).own, 40 * std::numbers::pi, 1e-9);
