@@ -289,9 +289,7 @@ TEST_F(ParametersTest, NodesOfOneValueAreChecked) {
        {},
        "5: spectrum 'srgb' needs a parameter 'color' (accepted: <rgb name=\"color\" value=\"0.5 0.5 0.5\"/>)"},
       {"d65", {text("scale", "2")}, "2: 'scale' is a string (accepted: float)"},
-      {"blackbody",
-       {property("temperature", "float", 0.0)},
-       "2: 'temperature' is 0 (accepted: a number above 0)"},
+      {"blackbody", {property("temperature", "float", 0.0)}, "2: 'temperature' is 0 (accepted: a number above 0)"},
       {"rawconstant", {text("value", "1")}, "2: 'value' is a string (accepted: rgb, spectrum, float)"},
       {"irregular",
        {text("wavelengths", "400, 500"), text("values", "1, 2, 3")},
@@ -386,7 +384,7 @@ TEST_F(ParametersTest, BoundsThatDoNotBelongToTheRange) {
   EXPECT_EQ(p.number("inside", 7, 0, 180, Ends::open_below), 180);
   EXPECT_EQ(complaint(),
             "2: 'low' is 0 (accepted: a number above 0); 2: 'high' is 180 (accepted: a number above 0 and below 180); "
-            "2: 'huge' is 1e+20 (accepted: a number above 0)");
+            "2: 'huge' is 1e+20 (accepted: a number above 0 and at most 1e+12)");
 }
 
 }  // namespace

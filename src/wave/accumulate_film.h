@@ -53,9 +53,11 @@ inline void drop_non_finite(const WaveJob& job, const FilmView& film, const Queu
 inline void add_moments(const FilmView& film, const Queue& slots, std::uint32_t slot, std::uint32_t pixel,
                         std::uint32_t n) {
   const float* rgb[3] = {slots.field(kSlotRed) + slot, slots.field(kSlotGreen) + slot, slots.field(kSlotBlue) + slot};
+  // A copy: reading the constant itself by index would emit it in every instruction set's objects.
+  constexpr auto kRows = kXyzFromSrgb;
   for (std::uint32_t k = 0; k < 3; ++k) {
     double* sums = film.moments + k * film.pixels() + pixel;
-    const ColorVector row = kXyzFromSrgb[k];
+    const ColorVector row = kRows[k];
     for (std::uint32_t i = 0; i < n; ++i) {
       const double v = row[0] * static_cast<double>(rgb[0][i]) + row[1] * static_cast<double>(rgb[1][i]) +
                        row[2] * static_cast<double>(rgb[2][i]);

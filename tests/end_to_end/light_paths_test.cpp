@@ -46,8 +46,8 @@ TEST_P(LightPaths, AgreeWithPathsFromTheCamera) {
   SceneParameters from_camera = c.parameters;
   from_camera.emplace_back("integrator", "path");
   Judge judge("light_paths." + c.name);
-  judge.compare("", estimates(load_test_scene("light_paths.xml", c.parameters), 768, 1, c.resolution, c.size),
-                estimates(load_test_scene("light_paths.xml", from_camera), 256, 1000, c.resolution, c.size));
+  judge.compare("", estimates(load_test_scene("light_paths.xml", c.parameters), 3072, 1, c.resolution, c.size),
+                estimates(load_test_scene("light_paths.xml", from_camera), 1024, 1000, c.resolution, c.size));
   EXPECT_TRUE(judge.verdict());
 }
 
@@ -67,7 +67,7 @@ TEST(LightPathsOnPlane, HaveTheLightOfTheClosedForm) {
   const Scene scene = load_test_scene_with("plane.xml", {.parameters = {{"light", "all"}}, .integrator = "ptracer"});
   const auto regions = statistics::regions_of(kSize, kSize, std::array{Grid{1, 1, 0.01}, Grid{2, 2, 0.04}});
   Judge judge("light_paths.plane");
-  judge.compare("", estimates(scene, 1024, 1, 0.01),
+  judge.compare("", estimates(scene, 2048, 1, 0.01),
                 RegionEstimates::known(PlaneScene::image(PlaneScene::Light::all, kSize, kSize), regions));
   EXPECT_TRUE(judge.verdict());
 }
