@@ -324,9 +324,10 @@ TEST(SceneLoad, AFolderDoesNotHideABuiltInSceneButAFileDoes) {
 TEST(SceneLoad, AnEmptyPluginNameIsNotNoName) {
   LoadOptions options;
   options.integrator = options.sampler = "";
-  EXPECT_EQ(load_messages("hexagon_room", options),
-            "error: unknown integrator ''\naccepted: aov, depth, direct, moment, path, ptracer, whitted\n"
-            "error: unknown sampler ''\naccepted: independent, ldsampler, multijitter, orthogonal, sobol, stratified\n");
+  EXPECT_EQ(
+      load_messages("hexagon_room", options),
+      "error: unknown integrator ''\naccepted: aov, depth, direct, moment, path, ptracer, whitted\n"
+      "error: unknown sampler ''\naccepted: independent, ldsampler, multijitter, orthogonal, sobol, stratified\n");
 }
 
 TEST(SceneLoad, RefusesFolders) {

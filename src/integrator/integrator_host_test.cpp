@@ -231,10 +231,11 @@ TEST(Ptracer, RefusesWhatIsOutOfRangeAndOtherParameters) {
 TEST(IntegratorHost, RefusesOthers) {
   EXPECT_THAT(
       compile_integrator(integrator("volpath", "")).messages(),
-      ElementsAre("error: integrator 'volpath' is not supported yet [aov, depth, direct, moment, path, ptracer, whitted]"));
-  EXPECT_THAT(
-      compile_integrator(integrator("pth", "")).messages(),
-      ElementsAre("error: unknown integrator 'pth', did you mean 'path'? [aov, depth, direct, moment, path, ptracer, whitted]"));
+      ElementsAre(
+          "error: integrator 'volpath' is not supported yet [aov, depth, direct, moment, path, ptracer, whitted]"));
+  EXPECT_THAT(compile_integrator(integrator("pth", "")).messages(),
+              ElementsAre("error: unknown integrator 'pth', did you mean 'path'? [aov, depth, direct, moment, path, "
+                          "ptracer, whitted]"));
   EXPECT_THAT(compile_integrator(integrator("path", "") + integrator("path", "")).messages(),
               ElementsAre("error: scene has more than one integrator [one integrator]"));
 }
@@ -253,10 +254,8 @@ TEST(IntegratorHost, TheCommandLinesReplacementMustExist) {
   LoadOptions options;
   options.integrator = "wited";
   const Compiled c = compile_integrator(integrator("path", ""), options);
-  EXPECT_THAT(
-      c.messages(),
-      ElementsAre(
-          "error: unknown integrator 'wited', did you mean 'whitted'? [aov, depth, direct, moment, path, ptracer, whitted]"));
+  EXPECT_THAT(c.messages(), ElementsAre("error: unknown integrator 'wited', did you mean 'whitted'? [aov, depth, "
+                                        "direct, moment, path, ptracer, whitted]"));
   EXPECT_EQ(c.diagnostics.all().at(0).location.line, 0);
 }
 

@@ -181,7 +181,7 @@ struct FilmSettings {
   PixelFormat pixel_format = PixelFormat::rgb;
   bool half_precision = false;  ///< image files hold 16-bit floats
 
-  bool opaque = false;          ///< alpha is 1 everywhere: there is light from everywhere
+  bool opaque = false;  ///< alpha is 1 everywhere: there is light from everywhere
 
   bool is_xyz() const { return pixel_format == PixelFormat::xyz || pixel_format == PixelFormat::xyza; }
   bool is_luminance() const {
@@ -226,7 +226,7 @@ struct SceneTables {
   std::vector<float> parameters;         ///< of BSDFs, textures and lights, each at its own offset
   std::vector<float> texels;             ///< of bitmaps and tables, each at its own offset
   std::vector<LightRecord> lights;
-  std::uint32_t bsdf_kinds = 0;          ///< bit k: a material of BsdfKind k was made; it may be behind another one
+  std::uint32_t bsdf_kinds = 0;       ///< bit k: a material of BsdfKind k was made; it may be behind another one
   std::uint32_t texture_kinds = 0;    ///< bit k: TextureKind k occurs
   bool needs_uv = false;              ///< some model looks at texture coordinates or tangents
   std::uint32_t environment = kNone;  ///< index of the light that rays to nowhere see

@@ -93,7 +93,7 @@ enum SlotField : std::uint32_t {
   kSlotBlue,
   kSlotKey,
   kSlotIndex,
-  kSlotWeight,  ///< of the reconstruction filter; only written and read if it is not a box
+  kSlotWeight,    ///< of the reconstruction filter; only written and read if it is not a box
   kSlotFeatures,  ///< kFeatureCount fields
   kSlotFieldCount = kSlotFeatures + kFeatureCount
 };
