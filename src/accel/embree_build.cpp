@@ -1,23 +1,30 @@
 #include <embree3/rtcore.h>
 
+#include <bit>
 #include <cstring>
 #include <stdexcept>
 
 #include "accel/build.h"
+#include "accel/embree_elements.h"
 #include "accel/embree_user.h"
 
 namespace norrsken {
 namespace {
 
-/// Consecutive primitives of one class and one group.
+/// Consecutive primitives of one class and one group; a shape made of elements has a run of its own.
 struct Run {
-  enum class Class { triangles, spheres, analytic } of;
+  enum class Class { triangles, spheres, analytic, elements } of;
   std::uint32_t first, count;
 };
 
+const AnalyticRecord& analytic_of(const SceneTables& scene, std::uint32_t primitive) {
+  return scene.analytics[std::bit_cast<std::uint32_t>(scene.surfaces[primitive].geometry[0])];
+}
+
 Run::Class class_of(const SceneTables& scene, std::uint32_t primitive) {
   if (primitive < scene.triangle_count()) return Run::Class::triangles;
-  return primitive < scene.first_analytic ? Run::Class::spheres : Run::Class::analytic;
+  if (primitive < scene.first_analytic) return Run::Class::spheres;
+  return has_elements(analytic_of(scene, primitive).kind) ? Run::Class::elements : Run::Class::analytic;
 }
 
 std::vector<Run> runs_of_group(const SceneTables& scene, std::uint32_t group) {
@@ -25,8 +32,8 @@ std::vector<Run> runs_of_group(const SceneTables& scene, std::uint32_t group) {
   for (const ShapeRecord& shape : scene.shapes) {
     if (shape.group != group || shape.primitive_count == 0) continue;
     const Run run{class_of(scene, shape.first_primitive), shape.first_primitive, shape.primitive_count};
-    const bool continues =
-        !runs.empty() && runs.back().of == run.of && runs.back().first + runs.back().count == run.first;
+    const bool continues = run.of != Run::Class::elements && !runs.empty() && runs.back().of == run.of &&
+                           runs.back().first + runs.back().count == run.first;
     if (continues) {
       runs.back().count += run.count;
     } else {
@@ -53,7 +60,9 @@ RTCGeometry make_geometry(RTCDevice device, const SceneTables& scene, const std:
     case Run::Class::spheres:
       return make_embree_spheres(device, {spheres.data() + (run.first - scene.triangle_count()), run.count});
     case Run::Class::analytic:
-      return make_embree_analytics(device, {scene.analytics.data() + (run.first - scene.first_analytic), run.count});
+      return make_embree_analytics(device, {&analytic_of(scene, run.first), run.count});
+    case Run::Class::elements:
+      return make_embree_elements(device, scene, analytic_of(scene, run.first));
   }
   return nullptr;
 }
@@ -111,7 +120,9 @@ std::uint32_t EmbreeScene::add_group(const SceneTables& scene, const std::vector
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(embree, geometry, static_cast<std::uint32_t>(geometries_.size()) - first);
     rtcReleaseGeometry(geometry);
-    geometries_.push_back({run.first, 1});
+    // The elements of a shape that is one primitive are all that primitive.
+    const bool one = run.of == Run::Class::elements && run.count == 1;
+    geometries_.push_back({run.first, one ? 0u : 1u});
   }
   if (group != kNone) rtcCommitScene(embree);
   return first;

@@ -59,14 +59,18 @@ void bounds_of(const AnalyticRecord& a, RTCBounds& b) {
 
 template <class Model>
 Met meet_in_place(const AnalyticRecord& a, const Vec3f& o, const Vec3f& d, float t_max) {
-  const isa_host::UInt zero(0u);
-  const isa_host::Mask active{true};
-  const isa_host::Affine local_from_world = isa_host::gather_affine(a.place.local_from_world, zero, active);
-  const Vec3f local_o = local_from_world.point(o), local_d = local_from_world.vector(d);
-  const isa_host::LocalHit hit = Model::intersect(local_o, local_d, isa_host::Float(t_max));
-  if (!hit.hit.v) return {};
-  const Vec3f n = local_from_world.transposed(Model::surface_at(fma(local_d, hit.t, local_o)).normal);
-  return {hit.t.v, a.flip_normals != 0 ? -n : n};
+  if constexpr (isa_host::kHasElements<Model>) {
+    return {};  // src/accel/embree_elements.cpp has those
+  } else {
+    const isa_host::UInt zero(0u);
+    const isa_host::Mask active{true};
+    const isa_host::Affine local_from_world = isa_host::gather_affine(a.place.local_from_world, zero, active);
+    const Vec3f local_o = local_from_world.point(o), local_d = local_from_world.vector(d);
+    const isa_host::LocalHit hit = Model::intersect(local_o, local_d, isa_host::Float(t_max));
+    if (!hit.hit.v) return {};
+    const Vec3f n = local_from_world.transposed(Model::surface_at(fma(local_d, hit.t, local_o)).normal);
+    return {hit.t.v, a.flip_normals != 0 ? -n : n};
+  }
 }
 
 Met meet(const AnalyticRecord& a, const Vec3f& o, const Vec3f& d, float t_max) {

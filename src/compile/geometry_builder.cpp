@@ -112,11 +112,16 @@ void GeometryBuilder::add_spheres(const std::vector<ShapeGeometry::Sphere>& sphe
 void GeometryBuilder::add_analytic(const AnalyticShape& analytic, Material material) {
   SurfaceRecord surface{{}, material.front, material.back, kNone, next_shape()};
   surface.geometry[0] = std::bit_cast<float>(static_cast<std::uint32_t>(tables_.analytics.size()));
-  analytics_.push_back(surface);
+  const std::uint32_t primitives = analytic.elements_are_primitives ? analytic.element_count : 1;
+  for (std::uint32_t element = 0; element < primitives; ++element) {
+    surface.geometry[1] = std::bit_cast<float>(element);
+    analytics_.push_back(surface);
+  }
   tables_.analytics.push_back({make_placement(analytic.world_from_local), analytic.kind,
-                               analytic.flip_normals ? 1u : 0u, static_cast<float>(analytic.area), kNone});
-  const bool flat = analytic.kind == AnalyticKind::disk;
-  boxes_[group_].extend({glm::dvec3(-1, -1, 0), glm::dvec3(1, 1, flat ? 0 : 1)}, analytic.world_from_local);
+                               analytic.flip_normals ? 1u : 0u, static_cast<float>(analytic.area),
+                               static_cast<std::uint32_t>(tables_.texels.size()), analytic.element_count});
+  tables_.texels.insert(tables_.texels.end(), analytic.table.begin(), analytic.table.end());
+  boxes_[group_].extend({analytic.lower, analytic.upper}, analytic.world_from_local);
 }
 
 void GeometryBuilder::add_triangles(MeshData mesh, Material material) {

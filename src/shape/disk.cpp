@@ -20,7 +20,12 @@ std::optional<ShapeGeometry> compile_shape_disk(Parameters& p, Builder& builder)
   const bool flip_normals = p.boolean("flip_normals", false);
   const double area = std::numbers::pi * glm::length(glm::cross(glm::dvec3(to_world[0]), glm::dvec3(to_world[1])));
   builder.describe(p.node(), fmt::format("area {:.6g}", area));
-  return place_analytic({AnalyticKind::disk, to_world, area, flip_normals}, p);
+  return place_analytic({.kind = AnalyticKind::disk,
+                         .world_from_local = to_world,
+                         .area = area,
+                         .flip_normals = flip_normals,
+                         .upper = {1, 1, 0}},
+                        p);
 }
 
 }  // namespace norrsken

@@ -100,7 +100,8 @@ struct AnalyticRecord {
   AnalyticKind kind;
   std::uint32_t flip_normals;  ///< 1: the local normal, taken to the world by the inverse transpose, is turned around
   float area;                  ///< in the world
-  std::uint32_t parameters = kNone;  ///< offset of what else the kind keeps in `parameters`
+  std::uint32_t table = 0;          ///< offset of what else the kind keeps in `texels`
+  std::uint32_t element_count = 1;  ///< of shapes made of elements: segments, voxels
 };
 
 /// A group of shapes in a place. What is in a group is stored once and has no place of its own in the world.

@@ -51,9 +51,9 @@ __attribute__((noinline)) inline PlacedSurface surface_in_world(const SceneView&
   return w;
 }
 
-/// The point of the analytic shape `analytic` that is next to `p`.
-__attribute__((noinline)) inline PlacedSurface analytic_surface(const SceneView& scene, UInt analytic, const Vec3f& p,
-                                                                Mask active) {
+/// The point of the analytic shape `analytic` that is next to `p`; `element` is the one of its elements that was hit.
+__attribute__((noinline)) inline PlacedSurface analytic_surface(const SceneView& scene, UInt analytic, UInt element,
+                                                                const Vec3f& p, Mask active) {
   constexpr std::uint32_t kFloats = sizeof(AnalyticRecord) / sizeof(float);
   const UInt record = analytic * UInt(kFloats);
   const Affine to = gather_affine(scene.analytics->place.world_from_local, record, active);
@@ -63,20 +63,22 @@ __attribute__((noinline)) inline PlacedSurface analytic_surface(const SceneView&
   const Mask flipped = active & (gather_uint(words + 1, record, active) != UInt(0u));
 
   const Vec3f local_p = from.point(p);
+  const ElementReader table{scene.texels, gather_uint(words + 3, record, active), element, active};
   LocalSurface local{};
 #define NORRSKEN_ANALYTIC(kind, Model)                                                             \
   if (scene.analytic_kinds & (1u << static_cast<std::uint32_t>(AnalyticKind::kind))) {             \
     const Mask of_kind = active & (kinds == UInt(static_cast<std::uint32_t>(AnalyticKind::kind))); \
-    if (any(of_kind)) local = select(of_kind, Model::surface_at(local_p), local);                  \
+    if (any(of_kind)) local = select(of_kind, surface_of<Model>(table, local_p), local);           \
   }
 #include "shape/list.def"
 #undef NORRSKEN_ANALYTIC
 
   PlacedSurface s;
   s.position = to.point(local.position);
-  s.normal = normalize(from.transposed(local.normal)) * select(flipped, Float(-1.0f), Float(1.0f));
-  s.shading = s.normal;
-  s.scale = rounding_scale(to, from, s.position, s.normal, Float(1.0f));
+  const Float sign = select(flipped, Float(-1.0f), Float(1.0f));
+  s.normal = normalize(from.transposed(local.normal)) * sign;
+  s.shading = normalize(from.transposed(local.shading)) * sign;
+  s.scale = rounding_scale(to, from, s.position, s.normal, local.scale);
   s.uv = local.uv;
   s.dp_du = to.vector(local.dp_du);
   s.dp_dv = to.vector(local.dp_dv);

@@ -164,7 +164,7 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
     if (scene.needs_uv && any(sphere)) add_sphere_uv(scene, fourth, sphere, s);
   }
   if (any(analytic)) {
-    const PlacedSurface p = analytic_surface(scene, bits(geometry.x), along, analytic);
+    const PlacedSurface p = analytic_surface(scene, bits(geometry.x), bits(geometry.y), along, analytic);
     s.position = select(analytic, p.position, s.position);
     s.normal = select(analytic, p.normal, s.normal);
     shading = select(analytic, p.shading, shading);

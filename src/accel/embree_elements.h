@@ -1,0 +1,16 @@
+// Shapes made of elements as Embree sees them: curves are Embree's own, the voxels of a grid are asked of us.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include "tables/scene_tables.h"
+
+namespace norrsken {
+
+/// Whether shapes of the kind are made of elements, see src/shape/shape.h.
+bool has_elements(AnalyticKind kind);
+
+/// The geometry of one such shape, to commit and attach; borrows the scene.
+RTCGeometry make_embree_elements(RTCDevice device, const SceneTables& scene, const AnalyticRecord& shape);
+
+}  // namespace norrsken
