@@ -81,7 +81,7 @@ TEST(Hdrfilm, RendersACropWindow) {
   EXPECT_EQ(film.full_height, 200);
   EXPECT_EQ(c.info().width, 100);
   // The camera looks at the whole film.
-  const auto& whole = compile_film(kBox + size("320", "200")).tables().camera;
+  const CameraRecord whole = compile_film(kBox + size("320", "200")).tables().camera;
   for (int i = 0; i < 3; ++i) EXPECT_EQ(c.tables().camera.base[i], whole.base[i]);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(c.tables().camera.du[i], whole.du[i]);
 }

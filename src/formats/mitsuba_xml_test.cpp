@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "formats/reader_testing.h"
@@ -298,7 +298,13 @@ TEST(HostileXml, ParametersThatMultiplyAreBounded) {
 }
 
 TEST(HostileXml, ThousandsOfErrorsAreCutShortQuickly) {
-  const auto start = std::chrono::steady_clock::now();
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr int kSeconds = 200;
+#else
+  constexpr int kSeconds = 20;
+#endif
+  // Of the processor's time: other tests run beside this one.
+  const std::clock_t start = std::clock();
   Diagnostics diagnostics;
   read_scene("<scene version=\"3.0.0\">" + repeat("<bsfd/>", 300000) + "</scene>", {}, diagnostics);
   EXPECT_LE(diagnostics.all().size(), 101u);
@@ -309,7 +315,7 @@ TEST(HostileXml, ThousandsOfErrorsAreCutShortQuickly) {
   read_scene(refs + "</scene>", {}, more);
   EXPECT_LE(more.all().size(), 101u);
   EXPECT_GT(more.error_count(), 10);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_LT((std::clock() - start) / CLOCKS_PER_SEC, kSeconds);
 }
 
 TEST(HostileXml, BytesThatAreNoTextAreNamed) {

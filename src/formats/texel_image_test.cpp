@@ -28,7 +28,7 @@ std::string bytes_of(const std::string& name, const Write& write) {
 std::string little_endian(std::initializer_list<std::pair<std::uint32_t, int>> numbers) {
   std::string bytes;
   for (auto [value, size] : numbers) {
-    for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
+    for (int i = 0; i < size; ++i) bytes += static_cast<char>(std::uint64_t{value} >> (8 * i) & 0xff);
   }
   return bytes;
 }

@@ -71,11 +71,11 @@ FilterRecord tabulate_filter(const FilterFunction& filter, std::vector<float>& t
   for (const Node& n : nodes) table.push_back(static_cast<float>(n.f / total));
   for (const double c : cdf) table.push_back(static_cast<float>(c));
   // As the kernel sees it, in floats, so that no number falls between two cells.
-  const auto first = table.begin() + 2 * record.nodes, last = first + record.nodes - 1;
+  const std::vector<float> steps(table.begin() + 2 * record.nodes, table.end() - 1);
   for (std::uint32_t i = 0; i <= record.cells; ++i) {
     const float t = static_cast<float>(i) / static_cast<float>(record.cells);
-    const auto above = std::upper_bound(first, last, t);
-    const std::ptrdiff_t interval = std::clamp<std::ptrdiff_t>(above - first - 1, 0, record.nodes - 2);
+    const auto above = std::ranges::upper_bound(steps, t);
+    const std::ptrdiff_t interval = std::clamp<std::ptrdiff_t>(above - steps.begin() - 1, 0, record.nodes - 2);
     table.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(interval)));
   }
   for (const bool with_sign : {false, true}) {

@@ -96,7 +96,7 @@ TEST(Cube, EveryFaceHasTheWholeUnitSquareOfTexture) {
     EXPECT_THAT(std::vector(uv, uv + 8), ElementsAre(0, 1, 1, 1, 1, 0, 0, 0)) << face;
   }
   const auto origin = [&](std::size_t face) {
-    return std::vector(&t.positions[12 * face + 9], &t.positions[12 * face + 12]);
+    return std::vector(t.positions.data() + 12 * face + 9, t.positions.data() + 12 * face + 12);
   };
   EXPECT_THAT(origin(0), ElementsAre(-1, -1, -1));
   EXPECT_THAT(origin(1), ElementsAre(1, 1, 1));
