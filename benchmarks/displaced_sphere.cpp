@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <iterator>
@@ -84,6 +85,21 @@ class Writer {
   std::string buffer_;
 };
 
+std::ofstream open(const std::filesystem::path& path) {
+  std::ofstream out(path, std::ios::binary);
+  out.exceptions(std::ios::failbit | std::ios::badbit);
+  return out;
+}
+
+std::string scene(const std::string& format) {
+  return fmt::format(
+      "<scene version=\"3.0.0\">\n    <path value=\"builtin:\"/>\n    <include "
+      "filename=\"builtin:hexagon_room.xml\"/>\n"
+      "    <shape type=\"{0}\">\n        <string name=\"filename\" value=\"mesh.{0}\"/>\n"
+      "        <bsdf type=\"diffuse\"/>\n    </shape>\n</scene>\n",
+      format);
+}
+
 }  // namespace
 
 SphereGrid sphere_grid(std::uint32_t triangles, bool bare) {
@@ -130,6 +146,18 @@ void write_obj(const SphereGrid& grid, std::ostream& to) {
       fmt::format_to(end, "f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", a + 1, b + 1, c + 1);
     }
   });
+}
+
+std::filesystem::path write_scene(const SphereGrid& grid, const std::string& format,
+                                  const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  std::filesystem::path mesh = folder / ("mesh." + format);
+  {
+    std::ofstream out = open(mesh);
+    format == "ply" ? write_ply(grid, out) : write_obj(grid, out);
+  }
+  open(folder / "scene.xml") << scene(format);
+  return mesh;
 }
 
 }  // namespace norrsken

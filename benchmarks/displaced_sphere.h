@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <ostream>
+#include <string>
 
 namespace norrsken {
 
@@ -19,5 +21,10 @@ SphereGrid sphere_grid(std::uint32_t triangles, bool bare);
 
 void write_ply(const SphereGrid& grid, std::ostream& to);  ///< little-endian
 void write_obj(const SphereGrid& grid, std::ostream& to);
+
+/// FOLDER/mesh.FORMAT ("ply" or "obj"), whose path is returned, and FOLDER/scene.xml, the hexagon room with it. Throws
+/// if that cannot be written.
+std::filesystem::path write_scene(const SphereGrid& grid, const std::string& format,
+                                  const std::filesystem::path& folder);
 
 }  // namespace norrsken

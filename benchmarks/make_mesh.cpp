@@ -9,29 +9,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "displaced_sphere.h"
-
-namespace {
-
-std::ofstream open(const std::filesystem::path& path) {
-  std::ofstream out(path, std::ios::binary);
-  out.exceptions(std::ios::failbit | std::ios::badbit);
-  return out;
-}
-
-std::string scene(const std::string& format) {
-  return fmt::format(
-      "<scene version=\"3.0.0\">\n    <path value=\"builtin:\"/>\n    <include "
-      "filename=\"builtin:hexagon_room.xml\"/>\n"
-      "    <shape type=\"{0}\">\n        <string name=\"filename\" value=\"mesh.{0}\"/>\n"
-      "        <bsdf type=\"diffuse\"/>\n    </shape>\n</scene>\n",
-      format);
-}
-
-}  // namespace
 
 int main(int argc, char** argv) try {
   CLI::App app{"Writes a displaced sphere in the hexagon room."};
@@ -45,13 +25,7 @@ int main(int argc, char** argv) try {
   CLI11_PARSE(app, argc, argv);
 
   const norrsken::SphereGrid grid = norrsken::sphere_grid(triangles, bare);
-  std::filesystem::create_directories(folder);
-  const std::filesystem::path mesh = std::filesystem::path(folder) / ("mesh." + format);
-  {
-    std::ofstream out = open(mesh);
-    format == "ply" ? norrsken::write_ply(grid, out) : norrsken::write_obj(grid, out);
-  }
-  open(std::filesystem::path(folder) / "scene.xml") << scene(format);
+  const std::filesystem::path mesh = norrsken::write_scene(grid, format, folder);
   fmt::print("{}: {} triangles, {} vertices, {:.1f} MB\n", mesh.string(), grid.triangle_count(), grid.vertex_count(),
              static_cast<double>(std::filesystem::file_size(mesh)) / 1e6);
   return 0;

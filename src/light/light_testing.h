@@ -1,6 +1,7 @@
 // For tests: images in memory.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
