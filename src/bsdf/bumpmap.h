@@ -13,7 +13,7 @@ namespace norrsken::NORRSKEN_ISA {
 
 /// Stored: the word inside, flags, scale, the texture's word.
 struct BumpMap {
-  static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Float&) { return bits(p.number(0)); }
+  static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Choice&) { return bits(p.number(0)); }
 
   static NORRSKEN_INLINE Vec3f normal(const ParameterReader& p, const Unperturbed& s) {
     const Vec2f slope = Bitmap::gradient(p.scene, bits(p.number(3)) & UInt(kTextureOffsetMask), p.point, p.active);

@@ -2,7 +2,8 @@
 // Parameters  opacity (number or texture, 0 to 1, default 0.5)
 // Measure     that of the BSDF inside, or delta
 // Source      none needed
-// Departures  Mitsuba chooses where it samples only; the expectation is the same
+// Departures  none in what is expected; the path goes on by one side, as in Mitsuba, and light sampling sees both as two
+//             samples, each weighted against its own side
 #pragma once
 
 #include "bsdf/resolved.h"
@@ -11,8 +12,8 @@ namespace norrsken::NORRSKEN_ISA {
 
 /// Stored: opacity (scalar), then the words of what is inside and of nothing.
 struct MaskBsdf {
-  static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Float& choice) {
-    return choose(p.scalar(0), bits(p.number(2)), bits(p.number(3)), choice);
+  static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Choice& choice) {
+    return choice.take(p.scalar(0), bits(p.number(2)), bits(p.number(3)), p.active);
   }
 };
 

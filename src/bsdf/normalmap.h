@@ -13,7 +13,7 @@ namespace norrsken::NORRSKEN_ISA {
 
 /// Stored: the word inside, flags, the normal map (color).
 struct NormalMap {
-  static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Float&) { return bits(p.number(0)); }
+  static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Choice&) { return bits(p.number(0)); }
 
   static NORRSKEN_INLINE Vec3f normal(const ParameterReader& p, const Unperturbed&) {
     const Vec3f c = p.color(2);

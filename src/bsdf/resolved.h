@@ -1,10 +1,10 @@
 // BSDFs that stand before others: a mask, a blend, a map of bumps. At each hit they are looked through until a model is
-// met, which alone is then evaluated and sampled. Where there is a choice, one random number makes it, with the weights as
-// probabilities; what is expected of the image is the weighted sum.
+// met, which alone is then evaluated and sampled. Where there is a choice, it is made by chance, with the weights as
+// probabilities, or all ways are gone one after the other, each with its weight; what is expected of the image is the
+// weighted sum either way.
 //
 // An adapter is a struct with
-//   static UInt behind(const ParameterReader&, Float& choice);     the material word behind it; `choice` is a random
-//                                                                  number in [0, 1), and is one again afterwards
+//   static UInt behind(const ParameterReader&, Choice&);     the material word behind it
 // and one that perturbs the frame with `Vec3f normal(const ParameterReader&, const Unperturbed&)` too, the new normal in
 // the shading frame, of any length. The block of those begins with the word behind and flags (kPerturb...).
 #pragma once
@@ -23,14 +23,42 @@ struct Unperturbed {
 
 inline constexpr std::uint32_t kPerturbFlips = 1, kPerturbShadows = 2;
 
-/// Takes `first` with this probability, else `second`.
-NORRSKEN_INLINE UInt choose(Float prob, UInt first, UInt second, Float& choice) {
-  const Mask take = choice < prob;
-  const Float rest = Float(1.0f) - prob;
-  const Float rescaled = select(take, choice / prob, (choice - prob) / rest);
-  // Rounding may reach 1. What was certain leaves nothing to divide by, and has used up nothing.
-  choice = min(select((prob > Float(0.0f)) & (rest > Float(0.0f)), rescaled, choice), Float(0x1.fffffep-1f));
-  return select(take, first, second);
-}
+/// How a hit finds its way to a model: by chance, or by a code that has one bit for each choice on the way.
+class Choice {
+ public:
+  /// `number` is random, in [0, 1).
+  static NORRSKEN_INLINE Choice by_chance(Float number) { return {number, UInt(0u), Float(1.0f), false}; }
+  static NORRSKEN_INLINE Choice by_code(std::uint32_t code) { return {Float(0.0f), UInt(code), Float(1.0f), true}; }
+
+  /// Takes `first` with this probability, else `second`.
+  NORRSKEN_INLINE UInt take(Float prob, UInt first, UInt second, Mask active) {
+    const Float rest = Float(1.0f) - prob;
+    if (coded_) {
+      const Mask take = (code_ & UInt(1u)) == UInt(0u);
+      weight_ = select(active, weight_ * select(take, prob, rest), weight_);
+      code_ = select(active, shift_right<1>(code_), code_);
+      return select(take, first, second);
+    }
+    const Mask take = number_ < prob;
+    const Float rescaled = select(take, number_ / prob, (number_ - prob) / rest);
+    // Rounding may reach 1. What was certain leaves nothing to divide by, and has used up nothing.
+    const Mask uncertain = active & (prob > Float(0.0f)) & (rest > Float(0.0f));
+    number_ = min(select(uncertain, rescaled, number_), Float(0x1.fffffep-1f));
+    return select(take, first, second);
+  }
+
+  /// Product of the probabilities of the ways that the code took; 1 by chance.
+  Float weight() const { return weight_; }
+  /// Whether this is a way to a model: the code has no bits beyond the choices met.
+  NORRSKEN_INLINE Mask is_way() const { return (code_ == UInt(0u)) & (weight_ > Float(0.0f)); }
+
+ private:
+  NORRSKEN_INLINE Choice(Float number, UInt code, Float weight, bool coded)
+      : number_(number), code_(code), weight_(weight), coded_(coded) {}
+  Float number_;
+  UInt code_;
+  Float weight_;
+  bool coded_;
+};
 
 }  // namespace norrsken::NORRSKEN_ISA

@@ -9,20 +9,11 @@
 namespace norrsken {
 namespace {
 
-bool perturbs(const Node& node) {
-  static const std::set<std::string_view> names = {
-#define NORRSKEN_BSDF_PERTURBING(name, Adapter) #name,
-#include "bsdf/resolved.def"
-#undef NORRSKEN_BSDF_PERTURBING
-  };
-  return node.kind == "bsdf" && names.contains(node.plugin);
-}
-
 /// A map among the BSDFs inside of `node`; each node is looked at once, however many lead to it.
 const Node* find_map(const Node& node, std::set<const Node*>& seen) {
   for (const Node::Child& child : node.children) {
     if (child.node->kind != "bsdf" || !seen.insert(child.node.get()).second) continue;
-    if (perturbs(*child.node)) return child.node.get();
+    if (perturbs_bsdf(child.node->plugin)) return child.node.get();
     if (const Node* found = find_map(*child.node, seen)) return found;
   }
   return nullptr;

@@ -60,6 +60,12 @@ Material Builder::bsdf(const Node& node) {
     material = plugin->compile(p, *this);
     p.finish();
     --bsdf_depth_;
+    for (const Node::Child& child : node.children) {
+      const auto inside = materials_.find(child.node.get());
+      if (inside != materials_.end()) material.choices = std::max(material.choices, inside->second.choices);
+    }
+    if (chooses_bsdf(node.plugin)) ++material.choices;
+    tables().material_choices = std::max(tables().material_choices, material.choices);
   }
   materials_.emplace(&node, material);
   return material;

@@ -22,6 +22,7 @@ namespace norrsken {
 struct Material {
   MaterialWord front = make_material(BsdfKind::absorb, 0);
   MaterialWord back = make_material(BsdfKind::absorb, 0);
+  std::uint32_t choices = 0;  ///< the most that a way from here to a model has
 };
 
 /// A shape in world space. With `normals` the mesh is smooth, without it is flat.

@@ -2,6 +2,23 @@
 
 namespace norrsken {
 
+bool perturbs_bsdf(std::string_view plugin) {
+  return false
+#define NORRSKEN_BSDF_PERTURBING(name, Adapter) || plugin == #name
+#include "bsdf/resolved.def"
+#undef NORRSKEN_BSDF_PERTURBING
+      ;
+}
+
+bool chooses_bsdf(std::string_view plugin) {
+  const bool is_looked_through = false
+#define NORRSKEN_BSDF_RESOLVED(name, Adapter) || plugin == #name
+#include "bsdf/resolved.def"
+#undef NORRSKEN_BSDF_RESOLVED
+      ;
+  return is_looked_through && !perturbs_bsdf(plugin);
+}
+
 std::span<const Plugin<CompileBsdf>> bsdf_plugins() {
   static constexpr Plugin<CompileBsdf> kTable[] = {
 #define NORRSKEN_BSDF(kind, Model) {#kind, compile_bsdf_##kind},

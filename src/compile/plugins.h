@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "compile/builder.h"
 #include "compile/plugin_table.h"
@@ -57,6 +58,10 @@ using CompileIntegrator = IntegratorSettings(Parameters&, Builder&);
 #define NORRSKEN_INTEGRATOR(name) CompileIntegrator compile_integrator_##name;
 #include "integrator/plugins.def"
 #undef NORRSKEN_INTEGRATOR
+
+/// Whether hits on the BSDF are looked through (see bsdf/resolved.h) with a new normal, or to one of several models.
+bool perturbs_bsdf(std::string_view plugin);
+bool chooses_bsdf(std::string_view plugin);
 
 std::span<const Plugin<CompileBsdf>> bsdf_plugins();
 std::span<const Plugin<CompileTexture>> texture_plugins();

@@ -8,6 +8,9 @@ namespace {
 /// Russian roulette, which changes no mean, must come some time: paths in a closed white room would not end.
 constexpr int kLatestRoulette = 4096;
 
+/// Materials with more choices on the way to a model are left to chance: each doubles the ways to sample lights for.
+constexpr std::uint32_t kMostListedChoices = 3;
+
 constexpr struct {
   const char* name;
   AccelKind kind;
@@ -79,6 +82,10 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   }
   view.any_resolved = view.bsdf_kinds >> kModelCount != 0;
   if (view.any_resolved) view.bsdf_kinds |= tables.bsdf_kinds | 1u << static_cast<std::uint32_t>(BsdfKind::absorb);
+  const bool samples_lights = !tables.lights.empty() && tables.integrator.emitter_samples > 0;
+  if (view.any_resolved && samples_lights && tables.material_choices <= kMostListedChoices) {
+    view.material_codes = 1u << tables.material_choices;
+  }
   for (const LightRecord& light : tables.lights) view.light_kinds |= 1u << static_cast<std::uint32_t>(light.kind);
   view.any_smooth =
       std::any_of(tables.shapes.begin(), tables.shapes.end(), [](const ShapeRecord& s) { return s.smooth != 0; });

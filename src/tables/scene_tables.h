@@ -100,7 +100,7 @@ struct AnalyticRecord {
   AnalyticKind kind;
   std::uint32_t flip_normals;  ///< 1: the local normal, taken to the world by the inverse transpose, is turned around
   float area;                  ///< in the world
-  std::uint32_t table = 0;          ///< offset of what else the kind keeps in `texels`
+  std::uint32_t table = 0;     ///< offset of what else the kind keeps in `texels`
   std::uint32_t element_count = 1;  ///< of shapes made of elements: segments, voxels
 };
 
@@ -227,11 +227,12 @@ struct SceneTables {
   std::vector<float> parameters;         ///< of BSDFs, textures and lights, each at its own offset
   std::vector<float> texels;             ///< of bitmaps and tables, each at its own offset
   std::vector<LightRecord> lights;
-  std::uint32_t bsdf_kinds = 0;       ///< bit k: a material of BsdfKind k was made; it may be behind another one
-  std::uint32_t texture_kinds = 0;    ///< bit k: TextureKind k occurs
-  bool needs_uv = false;              ///< some model looks at texture coordinates or tangents
-  std::uint32_t environment = kNone;  ///< index of the light that rays to nowhere see
-  float center[3] = {};               ///< of a sphere around all surfaces
+  std::uint32_t bsdf_kinds = 0;        ///< bit k: a material of BsdfKind k was made; it may be behind another one
+  std::uint32_t material_choices = 0;  ///< the most that stand one behind the other before a model
+  std::uint32_t texture_kinds = 0;     ///< bit k: TextureKind k occurs
+  bool needs_uv = false;               ///< some model looks at texture coordinates or tangents
+  std::uint32_t environment = kNone;   ///< index of the light that rays to nowhere see
+  float center[3] = {};                ///< of a sphere around all surfaces
   float radius = 0;
   CameraRecord camera{};
   FilmSettings film;

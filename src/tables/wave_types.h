@@ -39,7 +39,9 @@ struct SceneView {
   float radius = 0;
   bool any_smooth = false;
   bool any_resolved = false;  ///< materials that are looked through at each hit occur
-  bool needs_uv = false;      ///< something looks at texture coordinates or tangents
+  /// Codes (see bsdf/resolved.h) that lead to every model behind a material; 1 if the ways are left to chance.
+  std::uint32_t material_codes = 1;
+  bool needs_uv = false;  ///< something looks at texture coordinates or tangents
   bool any_area_light = false;
   CameraRecord camera;
   FilmSettings film;

@@ -38,15 +38,19 @@
 namespace norrsken::NORRSKEN_ISA {
 
 inline constexpr std::uint32_t kAllScattering = ~1u;  // every BSDF kind but absorb
+/// The BSDF kinds that light sampling finds something of.
+inline constexpr std::uint32_t kSampledByLights = 0u
+#define NORRSKEN_BSDF(kind, Model) | (Model::kDelta ? 0u : 1u << static_cast<std::uint32_t>(BsdfKind::kind))
+#include "bsdf/list.def"
+#undef NORRSKEN_BSDF
+    ;
 
 /// Shades the hits of one kind and traces their shadow rays, in portions that fit the shadow queue: portions of the
 /// hits, and of the light samples per hit where those are many.
 template <class Model>
 inline void shade_kind(const SceneView& scene, ShadeSettings settings, const Queue& hits, WaveMemory& memory,
                        WaveCounts& counts) {
-  // The further directions of a hit go without lights.
-  const auto light_samples =
-      settings.bsdf_sample > 0 ? 0u : static_cast<std::uint32_t>(scene.integrator.emitter_samples);
+  const auto light_samples = settings.lights ? static_cast<std::uint32_t>(scene.integrator.emitter_samples) : 0u;
   const std::uint32_t most = memory.shadow_rays.capacity / kMaxLanes;
   const std::uint32_t per_pass = light_samples < most ? light_samples : most;
   const std::uint32_t portion = memory.shadow_rays.capacity / (per_pass > 0 ? per_pass : 1) / kMaxLanes * kMaxLanes;
@@ -75,8 +79,12 @@ inline void shade_surfaces(const SceneView& scene, const ShadeSettings& settings
 #undef NORRSKEN_BSDF
 }
 
-NORRSKEN_INLINE void clear_hits(WaveMemory& memory) {
+NORRSKEN_INLINE void clear_model_hits(WaveMemory& memory) {
   for (Queue& q : memory.hits) q.count = 0;
+}
+
+NORRSKEN_INLINE void clear_hits(WaveMemory& memory) {
+  clear_model_hits(memory);
   memory.light_hits.count = 0;
   memory.unresolved_hits.count = 0;
   memory.misses.count = 0;
@@ -96,6 +104,7 @@ inline void finish_paths(const SceneView& scene, WaveMemory& memory, WaveCounts&
 inline void sample_further_directions(const SceneView& scene, ShadeSettings settings, WaveMemory& memory,
                                       WaveCounts& counts) {
   const auto n = static_cast<std::uint32_t>(scene.integrator.bsdf_samples);
+  settings.lights = false;
   for (settings.bsdf_sample = 1; settings.bsdf_sample < n; ++settings.bsdf_sample) {
     Queue& rays = memory.rays;
     rays.count = 0;
@@ -105,6 +114,33 @@ inline void sample_further_directions(const SceneView& scene, ShadeSettings sett
     memory.rays = memory.next_rays;
     memory.next_rays = first;
     finish_paths(scene, memory, counts);
+  }
+}
+
+/// Shades what is in memory.hits, with all directions that are wanted of it.
+inline void shade_hits(const SceneView& scene, const ShadeSettings& settings, WaveMemory& memory, WaveCounts& counts) {
+  shade_surfaces(scene, settings, memory, counts);
+  if (scene.integrator.bsdf_samples > 1 && settings.next_rays) {
+    sample_further_directions(scene, settings, memory, counts);
+  }
+}
+
+/// Shades the hits whose materials stand before several models. The path goes on by the model that chance picks, but the
+/// lights are sampled for each: to leave that to chance would be the larger part of the noise.
+inline void shade_all_behind(const SceneView& scene, ShadeSettings settings, WaveMemory& memory, WaveCounts& counts) {
+  const bool next_rays = settings.next_rays;
+  if (next_rays) {
+    settings.lights = false;
+    clear_model_hits(memory);
+    resolve_materials(scene, settings.hit_number, kByChance, kAllScattering, memory);
+    shade_hits(scene, settings, memory, counts);
+  }
+  settings.lights = true;
+  settings.next_rays = false;
+  for (std::uint32_t code = 0; code < scene.material_codes; ++code) {
+    clear_model_hits(memory);
+    resolve_materials(scene, settings.hit_number, code, kSampledByLights, memory);
+    shade_surfaces(scene, settings, memory, counts);
   }
 }
 
@@ -128,7 +164,7 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
       intersect_emitters(scene, memory.rays, memory);
     } else {
       intersect_closest(scene, hit_number, last ? 0u : kAllScattering, memory.rays, memory);
-      resolve_materials(scene, hit_number, kAllScattering, memory);
+      if (scene.material_codes == 1) resolve_materials(scene, hit_number, kByChance, kAllScattering, memory);
     }
     if (!(integrator.hide_emitters && hit_number == 1)) {
       shade_emission(scene, memory.light_hits, memory.slots);
@@ -140,10 +176,8 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
     const bool anything_to_find = !next_is_last || scene.any_area_light || scene.environment != kNone;
     const ShadeSettings settings{hit_number, 0, 0, anything_to_find && integrator.bsdf_samples > 0,
                                  hit_number >= static_cast<std::uint32_t>(integrator.rr_depth)};
-    shade_surfaces(scene, settings, memory, counts);
-    if (integrator.bsdf_samples > 1 && settings.next_rays) {
-      sample_further_directions(scene, settings, memory, counts);
-    }
+    shade_hits(scene, settings, memory, counts);
+    if (scene.material_codes > 1 && memory.unresolved_hits.count > 0) shade_all_behind(scene, settings, memory, counts);
     const Queue finished = memory.rays;
     memory.rays = memory.next_rays;
     memory.next_rays = finished;
@@ -160,7 +194,7 @@ inline void trace_features(const SceneView& scene, const WaveJob& job, WaveMemor
   clear_hits(memory);
   counts.closest_rays += memory.rays.count;
   intersect_closest(scene, 1, ~0u, memory.rays, memory);
-  resolve_materials(scene, 1, ~0u, memory);
+  resolve_materials(scene, 1, kByChance, ~0u, memory);
   shade_features<Absorb>(scene, memory.hits[0], memory.slots);
 #define NORRSKEN_BSDF(kind, Model) \
   shade_features<Model>(scene, memory.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory.slots);

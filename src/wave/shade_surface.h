@@ -16,6 +16,7 @@ struct ShadeSettings {
   std::uint32_t first_light_sample, end_light_sample;  ///< which of the emitter_samples per hit to take
   bool next_rays;                                      ///< paths go on, if only to look for emission
   bool roulette;
+  bool lights = true;             ///< sample them
   std::uint32_t bsdf_sample = 0;  ///< which of the bsdf_samples to take
 };
 

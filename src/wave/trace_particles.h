@@ -56,7 +56,7 @@ inline std::uint32_t trace_particles(const SceneView& scene, const WaveJob& job,
     memory.next_rays.count = 0;
     constexpr std::uint32_t kNotFromCamera = 1;
     intersect_closest(scene, hit_number + kNotFromCamera, kAllScattering, memory.rays, memory);
-    resolve_materials(scene, hit_number, kAllScattering, memory);
+    resolve_materials(scene, hit_number, kByChance, kAllScattering, memory);
     const ParticleSettings settings{hit_number, hit_number + 1 < max_depth,
                                     hit_number >= static_cast<std::uint32_t>(integrator.rr_depth)};
 #define NORRSKEN_BSDF(kind, Model)                                                                                 \

@@ -108,6 +108,31 @@ TEST_F(LookedThrough, NestedChoicesShareOneNumber) {
               {plain[0] * expected[0] / 0.6, plain[1] * expected[1] / 0.3, plain[2] * expected[2] / 0.9});
 }
 
+TEST_F(LookedThrough, LightIsSampledForEverythingBehind) {
+  // One sample a pixel, and no noise: what chance would pick is black in half of all cases.
+  const std::string nested = weighted(
+      "blendbsdf", "weight", "0.5",
+      diffuse("0") + weighted("mask", "opacity", "0.5",
+                              weighted("blendbsdf", "weight", "0.25", diffuse("0.4, 0.2, 0.8") + diffuse("0"))));
+  const std::string light = R"(<emitter type="point"><point name="position" value="1, 2, 3"/></emitter>)";
+  const auto got = render(nested, light, {.samples_per_pixel = 1});
+  const auto plain = render(diffuse("0.4, 0.2, 0.8"), light, {.samples_per_pixel = 1});
+  for (std::size_t i = 0; i < plain.pixels.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double wanted = 0.5 * 0.5 * 0.75 * plain.pixels[i][k];
+      EXPECT_NEAR(got.pixels[i][k], wanted, 1e-5 * wanted) << i << ", channel " << k;
+    }
+  }
+}
+
+TEST_F(LookedThrough, ManyChoicesAreLeftToChance) {
+  const auto plain = mean(under_point(diffuse("0.6, 0.3, 0.9")));
+  std::string nested = diffuse("0.6, 0.3, 0.9");
+  for (int i = 0; i < 4; ++i) nested = weighted("blendbsdf", "weight", "0.1", nested + diffuse("0"));
+  const double share = 0.9 * 0.9 * 0.9 * 0.9;
+  expect_mean(under_point(nested), {plain[0] * share, plain[1] * share, plain[2] * share});
+}
+
 TEST_F(LookedThrough, EveryInstructionSetChoosesAlike) {
   const std::string bsdf = weighted(
       "blendbsdf", "weight", "0.3",
