@@ -39,9 +39,7 @@ inline void intersect_closest(const SceneView& scene, std::uint32_t hit_number, 
     missed &= active;
     if (scene.environment != kNone && any(missed)) push(memory.misses, hit.ray, missed);
     active &= !missed;
-    hit.t = closest.t;
-    hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
-    hit.instance = closest.instance;
+    end_at(hit, closest);
     hit.bump = UInt(0u);
     hit.material = material_of(scene, hit.primitive, closest.primitive_side, active);
 
@@ -76,9 +74,7 @@ inline void intersect_emitters(const SceneView& scene, const Queue& rays, WaveMe
       if (scene.environment != kNone && any(missed)) push(memory.misses, hit.ray, missed);
       active &= !missed;
     }
-    hit.t = closest.t;
-    hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
-    hit.instance = closest.instance;
+    end_at(hit, closest);
     hit.bump = UInt(0u);
     hit.material = material_of(scene, hit.primitive, closest.primitive_side, active);
     active &= (hit.material & UInt(kEmitsBit)) != UInt(0u);

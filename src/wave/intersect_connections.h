@@ -23,11 +23,6 @@ NORRSKEN_INLINE void push(Queue& q, const Connection& connection, Mask m) {
   push(q, connection.ray, m);
 }
 
-/// Whether the primitive is part of a light, on whichever side.
-NORRSKEN_INLINE Mask is_emitter(const SceneView& scene, UInt primitive, Mask active) {
-  return gather_uint(surface_floats(scene) + 6, record_index(primitive), active) != UInt(kNone);
-}
-
 /// Unlike a light, the camera need not be where the scene is: walls that cannot come between two points of the scene
 /// (docs/pipeline.md) can hide it from the camera.
 NORRSKEN_INLINE Mask hidden_from_camera(const SceneView& scene, const ShadowRay& ray, Mask active) {
@@ -44,16 +39,12 @@ inline Mask hidden_by_others_than_emitters(const SceneView& scene, const ShadowR
   for (int skipped = 0; skipped < kMostSkipped && any(open); ++skipped) {
     const ClosestHit closest = intersect_closest_lanes(scene, false, hit.ray.origin, hit.ray.direction, open);
     open &= closest.t < rest;
-    hit.t = closest.t;
-    hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
-    hit.instance = closest.instance;
+    end_at(hit, closest);
     const Mask emitter = open & is_emitter(scene, hit.primitive, open);
     hidden |= open & !emitter;
     open = emitter;
     if (none(open)) break;
-    const SurfacePoint surface = make_surface_point(scene, hit, open);
-    const Vec3f behind = spawn_origin(surface.position, surface.normal, surface.offset, Float(-1.0f));
-    hit.ray.origin = select(open, behind, hit.ray.origin);
+    step_behind(scene, hit, open);
     rest = select(open, rest - closest.t, rest);
   }
   return hidden;

@@ -1,7 +1,7 @@
 // Records of paths in lanes, and how they go in and out of queues.
 #pragma once
 
-#include "math/vec3.h"
+#include "accel/hit.h"
 #include "tables/wave_types.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -23,6 +23,12 @@ struct Hit {
   UInt instance;  ///< that it was hit in, or kNone
   UInt bump;      ///< the word of the bump or normal map there, or 0
 };
+
+NORRSKEN_INLINE void end_at(Hit& hit, const ClosestHit& closest) {
+  hit.t = closest.t;
+  hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
+  hit.instance = closest.instance;
+}
 
 /// A ray that carries `contribution` to its slot unless something is within `t_max`.
 struct ShadowRay {

@@ -6,11 +6,10 @@
 //   |wo.ns wi.ng| / |wo.ng wi.ns|, since cosines are taken to the shading normal ns instead of the surface's own, ng.
 #pragma once
 
-#include "bsdf/bsdf.h"
-#include "sampler/sampler.h"
 #include "wave/generate_camera_rays.h"
 #include "wave/intersect_connections.h"
 #include "wave/perturbed_frame.h"
+#include "wave/sample_bsdf.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -90,11 +89,7 @@ NORRSKEN_INLINE void sample_next_particle(const Sampler& sampler, const SampleKe
                                           const typename Model::Parameters& bsdf, const Vec3f& wo_local,
                                           Queue& next_rays, Mask active) {
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
-  Vec2f u{Float(0.0f), Float(0.0f)};
-  if (!Model::kDelta) u = sampler.sample_2d(key, dimension + hit_dimension::kBsdfDirection);
-  Float lobe(0.0f);
-  if (Model::kUsesLobe) lobe = sampler.sample_1d(key, dimension + hit_dimension::kBsdfLobe);
-  const BsdfSample sample = Model::sample(bsdf, wo_local, lobe, u);
+  const BsdfSample sample = sample_bsdf<Model>(sampler, key, dimension, bsdf, wo_local);
   const Vec3f direction = surface.frame.to_world(sample.wi);
   const Float factor =
       sample.eta * sample.eta * flux_correction(surface, -hit.ray.direction, wo_local, direction, sample.wi);

@@ -1,12 +1,11 @@
 // Stage: HITS of one BSDF kind -> SHADOW RAYS to the lights, and the paths' next RAYS.
 #pragma once
 
-#include "bsdf/bsdf.h"
 #include "light/sample_lights.h"
-#include "sampler/sampler.h"
 #include "wave/generate_camera_rays.h"
 #include "wave/mis.h"
 #include "wave/perturbed_frame.h"
+#include "wave/sample_bsdf.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -72,11 +71,7 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
   const auto n = static_cast<std::uint32_t>(scene.integrator.bsdf_samples);
   const SampleKey k = sampler.repetition(key, settings.bsdf_sample, n);
-  Vec2f u{Float(0.0f), Float(0.0f)};
-  if (!Model::kDelta) u = sampler.sample_2d(k, dimension + hit_dimension::kBsdfDirection);
-  Float lobe(0.0f);
-  if (Model::kUsesLobe) lobe = sampler.sample_1d(k, dimension + hit_dimension::kBsdfLobe);
-  const BsdfSample sample = Model::sample(bsdf, wo, lobe, u);
+  const BsdfSample sample = sample_bsdf<Model>(sampler, k, dimension, bsdf, wo);
   const Vec3f direction = surface.frame.to_world(sample.wi);
   Vec3f throughput = hit.ray.throughput * sample.weight;
   if (map.any) throughput = throughput * map.weight(direction, sample.wi.z);

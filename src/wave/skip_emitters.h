@@ -8,6 +8,18 @@ namespace norrsken::NORRSKEN_ISA {
 /// Emitters behind each other that are looked through: far more than any scene has, so that no ray goes on forever.
 inline constexpr int kMostSkipped = 256;
 
+/// Whether the primitive is part of a light, on whichever side.
+NORRSKEN_INLINE Mask is_emitter(const SceneView& scene, UInt primitive, Mask active) {
+  return gather_uint(surface_floats(scene) + 6, record_index(primitive), active) != UInt(kNone);
+}
+
+/// The ray of a hit goes on behind what it met.
+NORRSKEN_INLINE void step_behind(const SceneView& scene, Hit& hit, Mask active) {
+  const SurfacePoint surface = make_surface_point(scene, hit, active);
+  const Vec3f behind = spawn_origin(surface.position, surface.normal, surface.offset, Float(-1.0f));
+  hit.ray.origin = select(active, behind, hit.ray.origin);
+}
+
 inline void skip_emitters(const SceneView& scene, Queue& rays) {
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     Mask active = first_lanes(rays.count - i);
@@ -17,14 +29,10 @@ inline void skip_emitters(const SceneView& scene, Queue& rays) {
       const ClosestHit closest =
           intersect_closest_lanes(scene, skipped == 0, hit.ray.origin, hit.ray.direction, active);
       active &= closest.t < Float(kInfinity);
-      hit.t = closest.t;
-      hit.primitive = closest.primitive_side & UInt(kPrimitiveMask);
-      hit.instance = closest.instance;
-      active &= gather_uint(surface_floats(scene) + 6, record_index(hit.primitive), active) != UInt(kNone);
+      end_at(hit, closest);
+      active &= is_emitter(scene, hit.primitive, active);
       if (none(active)) break;
-      const SurfacePoint surface = make_surface_point(scene, hit, active);
-      const Vec3f behind = spawn_origin(surface.position, surface.normal, surface.offset, Float(-1.0f));
-      hit.ray.origin = select(active, behind, hit.ray.origin);
+      step_behind(scene, hit, active);
     }
     store(rays.field(kRayOriginX) + i, hit.ray.origin.x);
     store(rays.field(kRayOriginY) + i, hit.ray.origin.y);
