@@ -19,7 +19,6 @@ fi
 not_yet=(
   participating_media/         # media are not supported
   various_shapes/              # sdfgrid is not supported
-  test_mesh_attributes_1_face  # a blend picks one of its two BSDFs at random, which is noisier than the reference's both
 )
 if [[ ${#filters[@]} -eq 0 ]]; then
   for scene in "$peer"/tests/scenes/*/*_*.xml; do
