@@ -33,12 +33,6 @@ bool needs_all_features(const Scene& scene) {
   return !scene.tables().layers.features.empty() || scene.tables().tables.film.has_alpha();
 }
 
-std::string usable_isa_list() {
-  std::string list = "auto";
-  for (const std::string& name : usable_isas()) list += ", " + name;
-  return list;
-}
-
 class RenderSession final : public Render {
  public:
   RenderSession(Scene scene, const RenderOptions& options, const KernelEntry& kernels, AccelKind accel_kind)
@@ -117,19 +111,8 @@ class RenderSession final : public Render {
 
 }  // namespace
 
-std::vector<std::string> usable_isas() {
-  std::vector<std::string> names;
-  for (const KernelEntry* const* entry = usable_kernels(); *entry != nullptr; ++entry)
-    names.emplace_back((*entry)->name);
-  return names;
-}
-
 std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& options, Diagnostics& diagnostics) {
-  const KernelEntry* kernels = find_kernels(options.isa.c_str());
-  if (kernels == nullptr) {
-    diagnostics.error({}, "instruction set '" + options.isa + "' is not built in or not supported by this processor",
-                      usable_isa_list());
-  }
+  const KernelEntry* kernels = choose_kernels(options.isa, diagnostics);
   if (options.samples_per_pixel && *options.samples_per_pixel < 1) {
     diagnostics.error({}, "samples per pixel is " + std::to_string(*options.samples_per_pixel),
                       "an integer from 1 to " + std::to_string(std::numeric_limits<int>::max()));

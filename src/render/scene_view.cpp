@@ -46,6 +46,22 @@ AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::
   return automatic;
 }
 
+std::vector<std::string> usable_isas() {
+  std::vector<std::string> names;
+  for (const KernelEntry* const* entry = usable_kernels(); *entry != nullptr; ++entry)
+    names.emplace_back((*entry)->name);
+  return names;
+}
+
+const KernelEntry* choose_kernels(const std::string& isa, Diagnostics& diagnostics) {
+  const KernelEntry* kernels = find_kernels(isa.c_str());
+  if (kernels != nullptr) return kernels;
+  std::string usable = "auto";
+  for (const std::string& name : usable_isas()) usable += ", " + name;
+  diagnostics.error({}, "instruction set '" + isa + "' is not built in or not supported by this processor", usable);
+  return nullptr;
+}
+
 const char* accel_name(AccelKind kind) {
   const auto* it = std::find_if(std::begin(kAccels), std::end(kAccels), [&](const auto& a) { return a.kind == kind; });
   return it->name;

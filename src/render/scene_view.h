@@ -5,11 +5,15 @@
 
 #include "accel/build.h"
 #include "compile/compile.h"
+#include "isa/entry.h"
 #include "norrsken/diagnostics.h"
 #include "norrsken/render.h"
 #include "tables/wave_types.h"
 
 namespace norrsken {
+
+/// The kernels of an instruction set by name, as usable_isas() has it, or "auto"; complains about others.
+const KernelEntry* choose_kernels(const std::string& isa, Diagnostics& diagnostics);
 
 /// The accelerator by name ("auto", "planes", "moller_trumbore", "embree"); "auto" goes by the number of primitives and
 /// lanes. Complains about unknown names, planes for a large scene, and anything but Embree for shapes with a formula or

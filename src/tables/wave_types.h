@@ -75,6 +75,24 @@ struct Queue {
   float* field(std::uint32_t k) const { return data + static_cast<std::size_t>(k) * stride; }
 };
 
+struct WaveMemory;
+
+/// What has just been done to a wave.
+enum class WaveEvent {
+  camera_rays,  ///< they are in `rays`
+  intersected,  ///< `rays` ended in `hits`, `unresolved_hits`, `light_hits` and `misses`
+  emission,     ///< of the light hits and misses: it is in the slots
+  resolved,     ///< by chance: `unresolved_hits` became `hits`
+  shadow_rays,  ///< `shadow_rays` are about to be asked
+  next_rays     ///< the bounce is done; they are in `rays`
+};
+
+/// Somebody who follows a wave, to tell what became of one sample.
+struct WaveObserver {
+  void (*see)(void* self, WaveEvent event, const WaveMemory& memory) = nullptr;
+  void* self = nullptr;
+};
+
 /// One worker's memory for one wave.
 struct WaveMemory {
   Queue slots;              ///< SlotField, one record per slot
@@ -86,6 +104,11 @@ struct WaveMemory {
   Queue shadow_rays;        ///< ShadowField
   Queue connections;        ///< ConnectionField; this and the next only for paths from the lights
   Queue splats;             ///< SplatField, several bounces of a wave
+  WaveObserver observer;
+
+  void tell(WaveEvent event) const {
+    if (observer.see != nullptr) observer.see(observer.self, event, *this);
+  }
 };
 
 /// Fields of the records, by number. src/wave/records.h has the lane types that go in and out.

@@ -64,6 +64,7 @@ inline void shade_kind(const SceneView& scene, ShadeSettings settings, const Que
       memory.shadow_rays.count = 0;
       shade_surface<Model>(scene, settings, hits, begin, end, memory.slots, memory.shadow_rays, memory.next_rays);
       counts.shadow_rays += memory.shadow_rays.count;
+      memory.tell(WaveEvent::shadow_rays);
       intersect_shadow(scene, memory.shadow_rays, memory.slots);
       if (Model::kDelta || per_pass == 0) break;  // nothing was sampled
     }
@@ -98,6 +99,7 @@ inline void finish_paths(const SceneView& scene, WaveMemory& memory, WaveCounts&
   intersect_emitters(scene, memory.rays, memory);
   shade_emission(scene, memory.light_hits, memory.slots);
   shade_miss(scene, memory.misses, memory.slots);
+  memory.tell(WaveEvent::emission);
 }
 
 /// Directions of the first hits beyond the first one; the next rays of that stay where they are.
@@ -133,6 +135,7 @@ inline void shade_all_behind(const SceneView& scene, ShadeSettings settings, Wav
     settings.lights = false;
     clear_model_hits(memory);
     resolve_materials(scene, settings.hit_number, kByChance, kAllScattering, memory);
+    memory.tell(WaveEvent::resolved);
     shade_hits(scene, settings, memory, counts);
   }
   settings.lights = true;
@@ -149,6 +152,7 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
   const IntegratorSettings& integrator = scene.integrator;
   const auto max_depth = integrator.max_depth < 0 ? 0xffffffffu : static_cast<std::uint32_t>(integrator.max_depth);
   generate_camera_rays(scene, job, memory.slots, memory.rays);
+  memory.tell(WaveEvent::camera_rays);
   if (integrator.distance) {
     counts.closest_rays += memory.rays.count;
     intersect_distance(scene, memory.rays, memory.slots);
@@ -164,11 +168,16 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
       intersect_emitters(scene, memory.rays, memory);
     } else {
       intersect_closest(scene, hit_number, last ? 0u : kAllScattering, memory.rays, memory);
-      if (scene.material_codes == 1) resolve_materials(scene, hit_number, kByChance, kAllScattering, memory);
+    }
+    memory.tell(WaveEvent::intersected);
+    if (!last && scene.material_codes == 1 && memory.unresolved_hits.count > 0) {
+      resolve_materials(scene, hit_number, kByChance, kAllScattering, memory);
+      memory.tell(WaveEvent::resolved);
     }
     if (!(integrator.hide_emitters && hit_number == 1)) {
       shade_emission(scene, memory.light_hits, memory.slots);
       shade_miss(scene, memory.misses, memory.slots);
+      memory.tell(WaveEvent::emission);
     }
     if (last) break;
     // A path's last ray can only find an area light; without one there is no need to send it.
@@ -181,6 +190,7 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
     const Queue finished = memory.rays;
     memory.rays = memory.next_rays;
     memory.next_rays = finished;
+    memory.tell(WaveEvent::next_rays);
   }
 }
 

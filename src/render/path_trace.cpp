@@ -1,0 +1,176 @@
+#include "norrsken/path_trace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "compile/compile.h"
+#include "isa/entry.h"
+#include "render/scene_view.h"
+#include "render/wave_arena.h"
+
+namespace norrsken {
+namespace {
+
+constexpr const char* kBsdfNames[] = {
+    "absorb",
+#define NORRSKEN_BSDF(kind, Model) #kind,
+#include "bsdf/list.def"
+#undef NORRSKEN_BSDF
+#define NORRSKEN_BSDF_RESOLVED(kind, Adapter) #kind,
+#include "bsdf/resolved.def"
+#undef NORRSKEN_BSDF_RESOLVED
+};
+
+Triple triple(const Queue& queue, std::uint32_t first_field, std::uint32_t i = 0) {
+  return {queue.field(first_field)[i], queue.field(first_field + 1)[i], queue.field(first_field + 2)[i]};
+}
+std::uint32_t word(const Queue& queue, std::uint32_t field) {
+  return std::bit_cast<std::uint32_t>(*queue.field(field));
+}
+
+/// Follows a wave of one slot.
+class PathObserver {
+ public:
+  PathObserver(const SceneView& scene, const KernelEntry& kernels) : scene_(scene), kernels_(kernels) {}
+
+  WaveObserver observer() {
+    return {[](void* self, WaveEvent event, const WaveMemory& memory) {
+              static_cast<PathObserver*>(self)->see(event, memory);
+            },
+            this};
+  }
+  PathTrace take(const WaveMemory& memory) {
+    trace_.radiance = triple(memory.slots, kSlotRed);
+    return std::move(trace_);
+  }
+
+ private:
+  void see(WaveEvent event, const WaveMemory& memory) {
+    switch (event) {
+      case WaveEvent::camera_rays:
+      case WaveEvent::next_rays:
+        add_ray(memory.rays);
+        break;
+      case WaveEvent::intersected:
+        add_hit(memory);
+        break;
+      case WaveEvent::resolved:
+        for (const Queue& hits : memory.hits) {
+          if (hits.count > 0) vertex().bsdf += " > " + bsdf_of(hits);
+        }
+        break;
+      case WaveEvent::emission:
+        add_emission(memory.slots);
+        break;
+      case WaveEvent::shadow_rays:
+        add_light_samples(memory);
+        break;
+    }
+  }
+
+  PathVertex& vertex() { return trace_.vertices.back(); }
+
+  static std::string bsdf_of(const Queue& hits) {
+    return kBsdfNames[static_cast<std::size_t>(material_kind(word(hits, kHitMaterial)))];
+  }
+
+  void add_ray(const Queue& rays) {
+    if (rays.count == 0) return;
+    PathVertex v;
+    v.origin = triple(rays, kRayOriginX);
+    v.direction = triple(rays, kRayDirectionX);
+    v.throughput = triple(rays, kRayThroughputRed);
+    v.pdf_sa = *rays.field(kRayPdf);
+    trace_.vertices.push_back(std::move(v));
+  }
+
+  void add_hit(const WaveMemory& memory) {
+    const auto look = [&](const Queue& hits) {
+      if (hits.count == 0) return;
+      PathVertex& v = vertex();
+      v.hit = true;
+      v.distance = *hits.field(kHitDistance);
+      for (std::size_t k = 0; k < 3; ++k) v.position[k] = std::fma(v.direction[k], v.distance, v.origin[k]);
+      const std::uint32_t primitive = word(hits, kHitPrimitive);
+      v.shape = scene_.surfaces[primitive].shape;
+      v.primitive = primitive - scene_.shapes[v.shape].first_primitive;
+      v.bsdf = bsdf_of(hits);
+    };
+    look(memory.light_hits);
+    for (const Queue& hits : memory.hits) look(hits);
+    look(memory.unresolved_hits);
+  }
+
+  void add_emission(const Queue& slots) {
+    const Triple radiance = triple(slots, kSlotRed);
+    for (std::size_t k = 0; k < 3; ++k) vertex().emission[k] += radiance[k] - before_[k];
+    before_ = radiance;
+  }
+
+  void add_light_samples(const WaveMemory& memory) {
+    const Queue& rays = memory.shadow_rays;
+    std::string bsdf;
+    for (const Queue& hits : memory.hits) {
+      if (hits.count > 0) bsdf = bsdf_of(hits);
+    }
+    std::vector<std::uint8_t> occluded(rays.capacity);
+    kernels_.occluded_rays(
+        scene_,
+        {rays.field(kShadowOriginX), rays.field(kShadowOriginY), rays.field(kShadowOriginZ),
+         rays.field(kShadowDirectionX), rays.field(kShadowDirectionY), rays.field(kShadowDirectionZ), rays.count},
+        rays.field(kShadowDistance), occluded.data());
+    for (std::uint32_t i = 0; i < rays.count; ++i) {
+      PathVertex::LightSample s{bsdf,
+                                triple(rays, kShadowOriginX, i),
+                                triple(rays, kShadowDirectionX, i),
+                                rays.field(kShadowDistance)[i],
+                                triple(rays, kShadowRed, i),
+                                occluded[i] == 0};
+      if (s.reached) {
+        for (std::size_t k = 0; k < 3; ++k) before_[k] += s.contribution[k];
+      }
+      vertex().light_samples.push_back(std::move(s));
+    }
+  }
+
+  const SceneView& scene_;
+  const KernelEntry& kernels_;
+  PathTrace trace_;
+  Triple before_{};  ///< of the slot's radiance, what is accounted for
+};
+
+}  // namespace
+
+std::optional<PathTrace> trace_path(const Scene& scene, const RenderOptions& options, int x, int y,
+                                    std::uint32_t sample, Diagnostics& diagnostics) {
+  const SceneTables& tables = scene.tables().tables;
+  const KernelEntry* kernels = choose_kernels(options.isa, diagnostics);
+  const AccelKind accel_kind =
+      choose_accel(options.accelerator, tables, kernels != nullptr ? kernels->lanes : 1, diagnostics);
+  if (x < 0 || y < 0 || x >= tables.film.width || y >= tables.film.height) {
+    diagnostics.error({}, fmt::format("there is no pixel {}, {}", x, y),
+                      fmt::format("0, 0 to {}, {}", tables.film.width - 1, tables.film.height - 1));
+  }
+  if (tables.integrator.from_lights) {
+    diagnostics.error({}, "the paths of integrator 'ptracer' begin at the lights and belong to no pixel",
+                      "another integrator");
+  }
+  if (diagnostics.has_errors()) return std::nullopt;
+
+  const Accel accel(tables, accel_kind);
+  SceneView view = make_scene_view(tables, accel.view());
+  view.sampler.seed += options.seed;
+  WaveArena arena(kMaxLanes);
+  WaveMemory& memory = arena.memory();
+  PathObserver path(view, *kernels);
+  memory.observer = path.observer();
+  WaveCounts counts;
+  const WaveJob job{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 1, 1, sample, 1};
+  kernels->trace_wave(view, job, memory, counts);
+  return path.take(memory);
+}
+
+}  // namespace norrsken
