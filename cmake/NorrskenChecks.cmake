@@ -1,4 +1,5 @@
-# The checks of the sources and objects as ctest cases: include arrows, symbols of the kernels, the installed package.
+# The checks of the sources and objects as ctest cases: include arrows, the scene reference, symbols of the kernels, the
+# installed package.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 function(norrsken_script_test name)
@@ -8,6 +9,7 @@ endfunction()
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)
 norrsken_script_test(check_includes.self_test ${scripts}/check_includes.py --self-test)
 norrsken_script_test(check_includes ${scripts}/check_includes.py ${PROJECT_SOURCE_DIR})
+norrsken_script_test(scene_docs ${scripts}/make_scene_docs.py --check)
 norrsken_script_test(check_symbols.self_test ${scripts}/check_symbols.py --self-test ${CMAKE_CXX_COMPILER})
 
 # Without optimisation, or instrumented, the compiler emits a copy of every inline function of the standard library:

@@ -14,11 +14,13 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/scenes.md"
 PICTURES = ROOT / "docs/images/plugins"
 SCENES = ROOT / "docs/plugin_scenes"
+ENLARGED = ("rfilter", "sampler")  # families whose pictures are about single pixels
 
 # Heading, folder, element of the scene file, lists that name its plugins, header with the parameters of the whole family.
 FAMILIES = [
@@ -70,7 +72,7 @@ def fields(block):
 
 
 def cell(text):
-    return text.replace("|", "\\|").replace("<", "&lt;").replace(">", "&gt;")
+    return text.replace("|", "\\|").replace("<", "&lt;").replace(">", "&gt;").replace("&lt;br&gt;", "<br>")
 
 
 def sentences(lines):
@@ -90,15 +92,27 @@ def render_block(block):
             out.extend(["", sentences(prose)])
             prose.clear()
 
+    column = 0  # where the text of the last entry begins
     for line in block:
         entry = re.match(r"  (\S.*?)(?: {2,}|$)(.*)", line)
         if line.startswith("   ") and table:
-            table[-1][1] = (table[-1][1] + " " + line.strip()).strip()
+            more = line.strip()
+            if not table[-1][1]:
+                column = line.index(more)
+            elif line.index(more) > column:  # a list within the text, of things and what they are
+                item = re.match(r"(\S.*?) {2,}(.*)", more)
+                more = f"<br>`{item[1]}` " + re.sub(" {2,}", ": ", item[2]) if item else more
+            table[-1][1] = (table[-1][1] + " " + more).strip()
         elif entry:
             if prose:
                 flush()
-            names = ", ".join(f"`{n.strip()}`" for n in entry[1].split(","))
-            table.append([names, entry[2]])
+            names = ", ".join(f"`{n.strip()}`" for n in entry[1].split(",") if n.strip())
+            if table and not table[-1][1]:  # the names took more than a line
+                table[-1][0] += ", " + names
+                table[-1][1] = entry[2]
+            else:
+                table.append([names, entry[2]])
+            column = entry.start(2)
         elif not line or line in ("Parameters", "Children") or line.startswith("Parameters of "):
             flush()
         else:
@@ -161,10 +175,16 @@ def page():
 
 def render(program):
     PICTURES.mkdir(parents=True, exist_ok=True)
-    for scene in sorted(SCENES.glob("*/*.xml")):
-        image = PICTURES / f"{scene.parent.name}_{scene.stem}.jpg"
-        subprocess.run([program, "render", str(scene), "-o", str(image), "--quiet"], check=True)
-        print(image.relative_to(ROOT))
+    with tempfile.TemporaryDirectory() as folder:
+        for scene in sorted(SCENES.glob("*/*.xml")):
+            image = PICTURES / f"{scene.parent.name}_{scene.stem}.jpg"
+            enlarged = scene.parent.name in ENLARGED
+            first = pathlib.Path(folder) / "pixels.exr" if enlarged else image
+            subprocess.run([program, "render", str(scene), "-o", str(first), "--quiet"], check=True)
+            if enlarged:
+                subprocess.run([program, "render", str(SCENES / "enlarge.xml"), f"-Dimage={first}", "-o", str(image),
+                                "--quiet"], check=True)
+            print(image.relative_to(ROOT))
 
 
 def main():
