@@ -5,7 +5,8 @@
 //             back is coloured by the base once more each time
 // Measure     delta for the coat; pdf_sa, cosine-weighted, for the base; chosen by Fresnel's factor and the reflectances
 // Source      Fresnel's equations: fresnel.h; the base: coat.h
-// Departures  diffuse light that the coat sends back from inside is integrated; Mitsuba's fit of it is off by up to 1 %
+// Departures  none from Mitsuba 3, whose fit of the coat's reflectance from inside is taken (fresnel_host.h): within 0.12 %
+//             of the integral's light up to index 2, but up to 3 % more of it for diamond and 25 % for index 3
 #pragma once
 
 #include "bsdf/bsdf.h"

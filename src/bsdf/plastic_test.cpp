@@ -37,8 +37,8 @@ TEST(PlasticHost, IsWhitePolypropyleneUnlessTold) {
     EXPECT_EQ(p[11], 0.0f);
     EXPECT_EQ(c.tables().surfaces.at(0).material_back, make_material(BsdfKind::absorb, 0));
   }
-  // What Mitsuba 3.9 prints as fdr_int, which is a fit.
-  EXPECT_NEAR(parameters_of(compile("plastic", ""), 12)[9], 0.590479f, 2e-3f);
+  // What Mitsuba 3.9 prints as fdr_int.
+  EXPECT_NEAR(parameters_of(compile("plastic", ""), 12)[9], 0.590479f, 1e-6f);
 }
 
 TEST(PlasticHost, TakesItsParameters) {
@@ -106,13 +106,13 @@ TEST(RoughPlasticHost, RefusesWhatIsWrong) {
 using isa_host::Float;
 using isa_host::Vec3f;
 
-/// Without a difference in index there is no coat, and the base is Lambert's.
+/// Without a difference in index there is no coat, and the base is Lambert's but for the fit of what comes back.
 TEST(Plastic, WithoutACoatIsDiffuse) {
   const auto sides =
       isa_host::load_bsdf("plastic", R"(<float name="int_ior" value="1.3"/><float name="ext_ior" value="1.3"/>
                     <rgb name="diffuse_reflectance" value="0.8, 0.5, 0.3"/>)");
   const Vec3f wo{Float(0.6f), Float(0.0f), Float(0.8f)}, wi{Float(0.0f), Float(-0.8f), Float(0.6f)};
-  EXPECT_NEAR(sides.front->evaluate(wo, wi).x.v, 0.8f * 0.6f / float(M_PI), 1e-6f);
+  EXPECT_NEAR(sides.front->evaluate(wo, wi).x.v, 0.8f * 0.6f / float(M_PI), 4e-5f);
 }
 
 /// With a base that gives everything back and colours it again each time, no light is lost.

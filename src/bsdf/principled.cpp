@@ -29,14 +29,13 @@ namespace {
 constexpr double kMaxRate = 1e6, kMaxIndex = 1e4;
 
 double read_eta(Parameters& p, bool transmits) {
+  const double eta = p.number("eta", 1.5, 0, kMaxIndex, Ends::open_below);
+  double specular = p.number("specular", 0.5, 0, 1);
   if (p.has("eta")) {
     if (p.has("specular")) p.error("specular", "'specular' is given next to 'eta'", "eta or specular");
-    p.number("specular", 0.5, 0, 1);
-    const double eta = p.number("eta", 1.5, 0, kMaxIndex, Ends::open_below);
     // What is not there cannot be refracted at.
     return transmits && eta == 1 ? 1.001 : eta;
   }
-  double specular = p.number("specular", 0.5, 0, 1);
   if (transmits && specular == 0) specular = 1e-3;
   return 2 / (1 - std::sqrt(0.08 * specular)) - 1;
 }

@@ -8,7 +8,8 @@
 //             reflected light
 // Source      Burley 2012 and 2015, see principled_lobes.h; microfacets: Walter et al. 2007, equations 20 and 21
 // Departures  none from Mitsuba 3: neither subsurface scattering nor absorption inside; sheen and clear coat may give back
-//             more than arrives; an interface that reflects nothing (specular 0) has no metal either
+//             more than arrives; what has nothing diffuse (metallic or spec_trans 1) has no sheen; an interface that
+//             reflects nothing (specular 0) has no metal either
 #pragma once
 
 #include "bsdf/bsdf.h"
@@ -145,7 +146,7 @@ struct Principled {
       value = value + grey(zero_unless(coated, coat));
     }
 
-    const Mask above = (wo.z > Float(0.0f)) & f.reflects & p.front;
+    const Mask above = (wo.z > Float(0.0f)) & f.reflects & p.front & (p.base > Float(0.0f));
     const Float diffuse = p.base * Float(kInvPi) * diffuse_shape(p.roughness, p.flatness, wo.z, wi.z, f.cos_i);
     const Vec3f sheen = sheen_color(p.base_color, p.sheen * (Float(1.0f) - p.metallic), p.sheen_tint, f.cos_i);
     return select(above, fma(fma(p.base_color, diffuse, sheen), wi.z, value), value);
