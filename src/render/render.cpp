@@ -21,6 +21,13 @@ FilmSettings film_settings(const SceneTables& tables) {
   return film;
 }
 
+/// Planes hold polygons, which do not know the triangles that they were merged from.
+std::string accelerator_for(const Scene& scene, const RenderOptions& options) {
+  const bool counts_triangles = std::ranges::any_of(
+      scene.tables().layers.features, [](const FeatureLayer& layer) { return layer.feature == kFeaturePrimitive; });
+  return counts_triangles && options.accelerator == "auto" ? "embree" : options.accelerator;
+}
+
 SceneLayers layers(const Scene& scene, const RenderOptions& options) {
   SceneLayers layers = scene.tables().layers;
   if (options.features) {
@@ -121,8 +128,8 @@ std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& 
     diagnostics.error({}, "number of threads is " + std::to_string(options.threads),
                       "0 (one per hardware thread) to " + std::to_string(kMaxThreads));
   }
-  const AccelKind accel =
-      choose_accel(options.accelerator, scene.tables().tables, kernels != nullptr ? kernels->lanes : 1, diagnostics);
+  const AccelKind accel = choose_accel(accelerator_for(scene, options), scene.tables().tables,
+                                       kernels != nullptr ? kernels->lanes : 1, diagnostics);
   if (diagnostics.has_errors()) return nullptr;
   return std::make_unique<RenderSession>(scene, options, *kernels, accel);
 }

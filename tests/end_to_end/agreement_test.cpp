@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "tests/end_to_end/param_name.h"
+#include "tests/end_to_end/reported_variance.h"
 #include "tests/end_to_end/room.h"
 #include "tests/statistics/judge.h"
 
@@ -73,28 +73,9 @@ INSTANTIATE_TEST_SUITE_P(, Isa, ::testing::Values("sse4.2", "avx2", "avx512", "n
 class ReportedVariance : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ReportedVariance, IsThatOfImagesOfDifferentSeeds) {
-  const Scene scene = load_room({.sampler = GetParam()});
-  constexpr int kImages = 48;
-  const std::size_t pixel_count = static_cast<std::size_t>(kRoomSize) * kRoomSize;
-  std::vector<double> sum(pixel_count), squares(pixel_count);
-  double reported = 0;
-  for (int i = 0; i < kImages; ++i) {
-    const Image image = render_image(scene, {.samples_per_pixel = 16, .seed = 5000u + i, .threads = kThreads}, true);
-    const Channel *green = image.find("G"), *variance = image.find("variance.G");
-    ASSERT_TRUE(green && variance);
-    for (std::size_t p = 0; p < pixel_count; ++p) {
-      const double value = static_cast<double>(green->values[p]);
-      sum[p] += value;
-      squares[p] += value * value;
-      reported += static_cast<double>(variance->values[p]) / kImages;
-    }
-  }
-  double observed = 0;
-  for (std::size_t p = 0; p < pixel_count; ++p) {
-    observed += (squares[p] - sum[p] * sum[p] / kImages) / (kImages - 1);
-  }
   // Summed over 4096 pixels the two have relative errors near 1 %.
-  EXPECT_NEAR(reported / observed, 1, 0.05);
+  EXPECT_NEAR(reported_over_observed(load_room({.sampler = GetParam()}), {.samples_per_pixel = 16, .seed = 5000}, 48),
+              1, 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(, ReportedVariance, ::testing::Values("independent", "sobol"), kParamName);

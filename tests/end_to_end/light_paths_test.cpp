@@ -8,6 +8,7 @@
 #include "tests/closed_form/plane_scene.h"
 #include "tests/end_to_end/param_name.h"
 #include "tests/end_to_end/rendering.h"
+#include "tests/end_to_end/reported_variance.h"
 #include "tests/statistics/judge.h"
 
 namespace norrsken::end_to_end {
@@ -120,25 +121,7 @@ TEST(LightPathsOfAnyNumberOfThreads, LeaveTheSameBits) {
 TEST(LightPathsError, IsThatOfImagesOfDifferentSeeds) {
   for (const char* sampler : {"independent", "sobol"}) {
     const Scene scene = load_test_scene_with("light_paths.xml", {.parameters = {}, .sampler = sampler});
-    constexpr int kImages = 64;
-    constexpr std::size_t kPixels = std::size_t{kSize} * kSize;
-    std::array<double, kPixels> sum{}, squares{};
-    double reported = 0, observed = 0;
-    for (int i = 0; i < kImages; ++i) {
-      const Image image = render_image(scene, {.samples_per_pixel = 32, .seed = 100u + i, .threads = kThreads}, true);
-      const Channel *green = image.find("G"), *variance = image.find("variance.G");
-      ASSERT_TRUE(green && variance);
-      for (std::size_t p = 0; p < kPixels; ++p) {
-        const double value = static_cast<double>(green->values[p]);
-        sum[p] += value;
-        squares[p] += value * value;
-        reported += static_cast<double>(variance->values[p]) / kImages;
-      }
-    }
-    for (std::size_t p = 0; p < kPixels; ++p) {
-      observed += (squares[p] - sum[p] * sum[p] / kImages) / (kImages - 1);
-    }
-    EXPECT_NEAR(reported / observed, 1, 0.1) << sampler;
+    EXPECT_NEAR(reported_over_observed(scene, {.samples_per_pixel = 32, .seed = 100}, 64), 1, 0.1) << sampler;
   }
 }
 

@@ -3,13 +3,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
 #include "norrsken/image.h"
 #include "tests/closed_form/closed_form.h"
-#include "tests/end_to_end/rendering.h"
+#include "tests/end_to_end/scene_folder.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -21,35 +18,21 @@ const closed_form::Vec kLight{1, 2, 3};
 /// Of a smooth picture of a thousand and more samples a pixel, the mean is far better known than this.
 constexpr double kTolerance = 3e-3;
 
-class LookedThrough : public ::testing::Test {
+class LookedThrough : public SceneFolder {
  protected:
-  void SetUp() override {
-    std::string pattern = ::testing::TempDir() + "/norrsken-XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   /// A plane of this material, seen from straight above and lit by a point or by what else `more` holds.
   statistics::Picture render(const std::string& bsdf, const std::string& more, RenderOptions options = {}) const {
-    std::ofstream(folder_ / "scene.xml") << R"(<scene version="3.0.0">
-      <integrator type="path"><integer name="max_depth" value="3"/></integrator>
-      <sensor type="perspective">
-        <float name="fov" value="53.13010235415598"/>
-        <transform name="to_world"><lookat origin="0, 0, 4" target="0, 0, 0" up="0, 1, 0"/></transform>
-        <film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="16"/><rfilter type="box"/></film>
-      </sensor>
-      <shape type="rectangle"><transform name="to_world"><scale value="10"/></transform>)"
-                                         << bsdf << "</shape>" << more << "</scene>";
     if (!options.samples_per_pixel) options.samples_per_pixel = 1024;
     options.threads = kThreads;
-    return picture_of(render_image(load((folder_ / "scene.xml").string()), options));
+    const std::string plane = R"(<shape type="rectangle"><transform name="to_world"><scale value="10"/></transform>)";
+    return picture_of(render_image(load_elements("<integrator type=\"path\">" + integer("max_depth", 3) +
+                                                 "</integrator>" + camera(kSize) + plane + bsdf + "</shape>" + more),
+                                   options));
   }
   statistics::Picture under_point(const std::string& bsdf) const {
     return render(bsdf, R"(<emitter type="point"><point name="position" value="1, 2, 3"/>)"
                         R"(<float name="intensity" value="50"/></emitter>)");
   }
-
-  std::filesystem::path folder_;
 };
 
 std::array<double, 3> mean(const statistics::Picture& picture) {
@@ -82,9 +65,6 @@ double tilted_plane(const closed_form::Vec& normal, const Weight& weight) {
   return sum / (kFine * kFine);
 }
 
-std::string diffuse(const std::string& rgb) {
-  return "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" + rgb + "\"/></bsdf>";
-}
 std::string weighted(const std::string& type, const std::string& name, const std::string& value,
                      const std::string& inside) {
   return "<bsdf type=\"" + type + "\"><float name=\"" + name + "\" value=\"" + value + "\"/>" + inside + "</bsdf>";
@@ -195,7 +175,7 @@ TEST_F(LookedThrough, BumpMapsFollowTheSlopeOfTheirTexture) {
     auto& values = ramp.channel(name).values;
     for (int i = 0; i < 128; ++i) values[static_cast<std::size_t>(i)] = static_cast<float>(i % 64) / 64.0f;
   }
-  ASSERT_TRUE(write_image((folder_ / "ramp.exr").string(), ramp));
+  ASSERT_TRUE(write_image(path("ramp.exr"), ramp));
   // Heights of 10 u on a plane of side 20: the slope is a half, towards +x.
   const double length = std::sqrt(1.25);
   const double wanted = tilted_plane({-0.5 / length, 0, 1 / length}, [](const closed_form::Vec&) { return 1.0; });

@@ -57,6 +57,7 @@ inline constexpr Family kSuite[] = {
     {"light_paths.border", 3 * (1 + 4)},
     {"light_paths.plane", 3 * (1 + 4)},
     {"light_paths.uniform", 4 * 3 * (1 + 4)},
+    {"direct.splits", 6 * 3 * (1 + 4)},
     {"room.area_0_bounces", kPerRoom},
     {"room.area_1_bounce", kPerRoom},
     {"room.area_2_bounces", kPerRoom},

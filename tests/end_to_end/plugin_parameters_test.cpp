@@ -1,0 +1,169 @@
+// Every plugin of every family's list and every one of its parameters: right, missing, of the wrong type, out of range,
+// unused. A plugin or a parameter that is not in the table fails the test.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "base/text.h"
+#include "compile/compile_testing.h"
+#include "tests/end_to_end/plugin_parameters.h"
+
+namespace norrsken::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::string element(const std::string& type, const std::string& name, const std::string& value) {
+  if (type == "transform") return fmt::format(R"(<transform name="{}">{}</transform>)", name, value);
+  if (type == "checkerboard") return fmt::format(R"(<texture name="{}" type="checkerboard"/>)", name);
+  return fmt::format(R"(<{} name="{}" value="{}"/>)", type, name, value);
+}
+std::string right(const Row& row) { return element(row.type, row.name, row.right); }
+
+const Files& assets() {
+  static const Files files = [] {
+    Files read;
+    for (const char* name : {"card.png", "relief.png", "star.obj", "knot.ply", "gear.serialized", "sky.exr"}) {
+      std::ostringstream bytes;
+      bytes << std::ifstream(std::string(NORRSKEN_TEST_ASSETS "/") + name, std::ios::binary).rdbuf();
+      read[name] = bytes.str();
+    }
+    return read;
+  }();
+  return files;
+}
+
+class EveryPlugin : public ::testing::TestWithParam<Plugin> {
+ protected:
+  /// What is complained about if these elements are in the plugin, in a scene that is fine without it.
+  static std::vector<std::string> errors(const std::string& inside) {
+    const Plugin& p = GetParam();
+    const std::string kind = p.kind;
+    std::string node = fmt::format(R"(<{0} type="{1}"{2}>{3}</{0}>)", kind, p.name,
+                                   kind == "texture" ? R"( name="reflectance")" : "", inside);
+    const std::string camera = R"(<sensor type="perspective">)";
+    std::string scene = kSensor;
+    if (kind == "sensor") scene = node;
+    if (kind == "film" || kind == "sampler") scene = camera + node + "</sensor>";
+    if (kind == "rfilter") scene = camera + R"(<film type="hdrfilm">)" + node + "</film></sensor>";
+    scene += kShape + kEmitter;
+    if (kind == "integrator" || kind == "emitter") {
+      const bool on_a_shape = std::string(p.name).ends_with("area");
+      scene += on_a_shape ? R"(<shape type="rectangle">)" + node + "</shape>" : node;
+    }
+    if (kind == "texture") node = R"(<bsdf type="diffuse">)" + node + "</bsdf>";
+    if (kind == "texture" || kind == "bsdf") {
+      scene += R"(<shape type="ply"><string name="filename" value="knot.ply"/>)" + node + "</shape>";
+    }
+    if (kind == "shape") {
+      const bool is_group = p.name == std::string("shapegroup");
+      if (!is_group) scene += R"(<shape type="shapegroup" id="group"><shape type="sphere"/></shape>)";
+      scene += node;
+    }
+    std::vector<std::string> errors = compile_elements(scene, assets()).messages();
+    std::erase_if(errors, [](const std::string& message) { return !message.starts_with("error: "); });
+    return errors;
+  }
+  /// `needed` and the required parameters but this one.
+  static std::string context(std::string_view without) {
+    std::string elements = GetParam().needed;
+    for (const Row& row : GetParam().rows) {
+      const auto& required = GetParam().required;
+      const bool is_required = std::ranges::find(required, std::string_view(row.name)) != required.end();
+      if (is_required && row.name != without) elements += right(row);
+    }
+    // A slope on one side alone has no meaning.
+    if (without == "alpha_u") elements += element("float", "alpha_v", "0.3");
+    if (without == "alpha_v") elements += element("float", "alpha_u", "0.3");
+    return elements;
+  }
+};
+
+TEST_P(EveryPlugin, TakesWhatIsRightAndCanDoWithoutIt) {
+  EXPECT_THAT(errors(context("")), IsEmpty());
+  for (const Row& row : GetParam().rows) {
+    SCOPED_TRACE(row.name);
+    EXPECT_THAT(errors(context(row.name) + right(row)), IsEmpty());
+  }
+  for (const char* name : GetParam().required) {
+    const auto complaints = errors(context(name));
+    ASSERT_THAT(complaints, ::testing::SizeIs(1)) << name;
+    EXPECT_THAT(complaints[0], ::testing::HasSubstr(fmt::format("{} '{}' ", GetParam().kind, GetParam().name)));
+  }
+}
+
+TEST_P(EveryPlugin, RefusesWrongTypes) {
+  for (const Row& row : GetParam().rows) {
+    SCOPED_TRACE(row.name);
+    const std::string type = row.type == std::string("transform") ? "boolean" : "transform";
+    const auto complaints = errors(context(row.name) + element(type, row.name, type == "boolean" ? "true" : ""));
+    ASSERT_FALSE(complaints.empty());
+    EXPECT_THAT(complaints[0], ::testing::StartsWith(fmt::format("error: '{}' is a {} [", row.name, type)));
+  }
+}
+
+TEST_P(EveryPlugin, RefusesWhatIsOutOfRange) {
+  for (const Row& row : GetParam().rows) {
+    if (row.wrong[0] == 0) continue;
+    SCOPED_TRACE(row.name);
+    const auto complaints = errors(context(row.name) + element(row.type, row.name, row.wrong));
+    ASSERT_THAT(complaints, ::testing::SizeIs(1));
+    EXPECT_THAT(complaints[0], ::testing::HasSubstr(row.type == std::string("transform") ? row.name : row.wrong));
+    const std::string end = row.accepted[0] != 0 ? fmt::format("[{}]", row.accepted) : "";
+    EXPECT_THAT(complaints[0], ::testing::EndsWith(end));
+  }
+}
+
+/// The list of what is accepted is that of the table, so the table has every parameter.
+TEST_P(EveryPlugin, NamesItsParametersIfOneIsUnused) {
+  std::set<std::string> names;
+  for (const Row& row : GetParam().rows) names.insert(row.name);
+  // Read where the other one of a pair is not given.
+  std::string accepted;
+  for (const std::string& name : names) accepted += (accepted.empty() ? "" : ", ") + name;
+  const auto complaints = errors(context("") + R"(<float name="zzz" value="1"/>)");
+  EXPECT_THAT(complaints, ElementsAre(fmt::format("error: unused parameter 'zzz' of {} '{}' [{}]", GetParam().kind,
+                                                  GetParam().name, accepted.empty() ? "no parameters" : accepted)));
+}
+
+INSTANTIATE_TEST_SUITE_P(, EveryPlugin, ::testing::ValuesIn(kPlugins),
+                         [](const auto& test) { return std::string(test.param.kind) + "_" + test.param.name; });
+
+TEST(PluginTable, HasEveryPluginOfTheLists) {
+  std::set<std::string> tested;
+  for (const Plugin& plugin : kPlugins) tested.insert(std::string(plugin.kind) + " " + plugin.name);
+  std::set<std::string> listed;
+#define NORRSKEN_BSDF(kind, Model) listed.insert("bsdf " #kind);
+#define NORRSKEN_BSDF_RESOLVED(name, Adapter) listed.insert("bsdf " #name);
+#define NORRSKEN_BSDF_ADAPTER(name) listed.insert("bsdf " #name);
+#define NORRSKEN_TEXTURE(kind, Model) listed.insert("texture " #kind);
+#define NORRSKEN_SHAPE(name) listed.insert("shape " #name);
+#define NORRSKEN_EMITTER(name) listed.insert("emitter " #name);
+#define NORRSKEN_CAMERA(kind, Model) listed.insert("sensor " #kind);
+#define NORRSKEN_FILM(name) listed.insert("film " #name);
+#define NORRSKEN_SAMPLER(name) listed.insert("sampler " #name);
+#define NORRSKEN_RFILTER(name) listed.insert("rfilter " #name);
+#define NORRSKEN_INTEGRATOR(name) listed.insert("integrator " #name);
+#include "bsdf/adapters.def"
+#include "bsdf/list.def"
+#include "bsdf/resolved.def"
+#include "camera/list.def"
+#include "film/plugins.def"
+#include "integrator/plugins.def"
+#include "light/plugins.def"
+#include "rfilter/plugins.def"
+#include "sampler/plugins.def"
+#include "shape/plugins.def"
+#include "texture/list.def"
+  EXPECT_EQ(tested, listed);
+}
+
+}  // namespace
+}  // namespace norrsken::testing
