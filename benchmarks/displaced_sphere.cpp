@@ -1,12 +1,14 @@
 #include "displaced_sphere.h"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <iterator>
+#include <new>
 #include <numbers>
 #include <string>
 
@@ -85,6 +87,40 @@ class Writer {
   std::string buffer_;
 };
 
+/// The same, deflated.
+class Deflater {
+ public:
+  explicit Deflater(std::ostream& out) : out_(out) {
+    if (deflateInit(&stream_, Z_DEFAULT_COMPRESSION) != Z_OK) throw std::bad_alloc();
+  }
+  Deflater(const Deflater&) = delete;
+  Deflater& operator=(const Deflater&) = delete;
+  ~Deflater() { deflateEnd(&stream_); }
+  std::string& buffer() {
+    if (buffer_.size() > (1u << 20)) write(Z_NO_FLUSH);
+    return buffer_;
+  }
+  void finish() { write(Z_FINISH); }
+
+ private:
+  void write(int flush) {
+    stream_.next_in = reinterpret_cast<Bytef*>(buffer_.data());
+    stream_.avail_in = static_cast<uInt>(buffer_.size());
+    do {
+      char deflated[1 << 16];
+      stream_.next_out = reinterpret_cast<Bytef*>(deflated);
+      stream_.avail_out = sizeof deflated;
+      deflate(&stream_, flush);
+      out_.write(deflated, static_cast<std::streamsize>(sizeof deflated - stream_.avail_out));
+    } while (stream_.avail_out == 0);
+    buffer_.clear();
+  }
+
+  std::ostream& out_;
+  std::string buffer_;
+  z_stream stream_{};
+};
+
 std::ofstream open(const std::filesystem::path& path) {
   std::ofstream out(path, std::ios::binary);
   out.exceptions(std::ios::failbit | std::ios::badbit);
@@ -148,13 +184,47 @@ void write_obj(const SphereGrid& grid, std::ostream& to) {
   });
 }
 
+void write_serialized(const SphereGrid& grid, std::ostream& to) {
+  constexpr std::uint16_t kMagic = 0x041c, kVersion = 4;
+  constexpr std::uint32_t kNormals = 0x0001, kTexcoords = 0x0002, kSingle = 0x1000;
+  std::string ends;
+  put(ends, kMagic);
+  put(ends, kVersion);
+  to << ends;
+  Deflater out(to);
+  put(out.buffer(), grid.bare ? kSingle : kSingle | kNormals | kTexcoords);
+  put(out.buffer(), '\0');  // the mesh's name
+  put(out.buffer(), std::uint64_t{grid.vertex_count()});
+  put(out.buffer(), std::uint64_t{grid.triangle_count()});
+  const auto put_vector = [&](const glm::dvec3& v) {
+    std::string& buffer = out.buffer();
+    for (int k = 0; k < 3; ++k) put(buffer, static_cast<float>(v[k]));
+  };
+  for_each_vertex(grid, [&](const Vertex& v) { put_vector(v.position); });
+  if (!grid.bare) {
+    for_each_vertex(grid, [&](const Vertex& v) { put_vector(v.normal); });
+    for_each_vertex(grid, [&](const Vertex& v) {
+      put(out.buffer(), static_cast<float>(v.u));
+      put(out.buffer(), static_cast<float>(v.v));
+    });
+  }
+  for_each_triangle(grid, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    for (const std::uint32_t corner : {a, b, c}) put(out.buffer(), corner);
+  });
+  out.finish();
+  ends.clear();
+  put(ends, std::uint64_t{0});  // where the one mesh begins
+  put(ends, std::uint32_t{1});
+  to << ends;
+}
+
 std::filesystem::path write_scene(const SphereGrid& grid, const std::string& format,
                                   const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   std::filesystem::path mesh = folder / ("mesh." + format);
   {
     std::ofstream out = open(mesh);
-    format == "ply" ? write_ply(grid, out) : write_obj(grid, out);
+    (format == "ply" ? write_ply : format == "obj" ? write_obj : write_serialized)(grid, out);
   }
   open(folder / "scene.xml") << scene(format);
   return mesh;

@@ -21,8 +21,9 @@ SphereGrid sphere_grid(std::uint32_t triangles, bool bare);
 
 void write_ply(const SphereGrid& grid, std::ostream& to);  ///< little-endian
 void write_obj(const SphereGrid& grid, std::ostream& to);
+void write_serialized(const SphereGrid& grid, std::ostream& to);  ///< Mitsuba's format, version 4
 
-/// FOLDER/mesh.FORMAT ("ply" or "obj"), whose path is returned, and FOLDER/scene.xml, the hexagon room with it. Throws
+/// FOLDER/mesh.FORMAT ("ply", "obj" or "serialized"), whose path is returned, and FOLDER/scene.xml, the hexagon room with it. Throws
 /// if that cannot be written.
 std::filesystem::path write_scene(const SphereGrid& grid, const std::string& format,
                                   const std::filesystem::path& folder);

@@ -1,8 +1,8 @@
 // Writes meshes to measure with: a displaced sphere of about so many triangles inside the hexagon room.
 //
-//   make_mesh FOLDER [--triangles N] [--format ply|obj] [--bare]
+//   make_mesh FOLDER [--triangles N] [--format ply|obj|serialized] [--bare]
 //
-// FOLDER/mesh.ply or mesh.obj is the mesh, FOLDER/scene.xml the room with it. `--bare` leaves out normals and texture
+// FOLDER/mesh.ply, mesh.obj or mesh.serialized is the mesh, FOLDER/scene.xml the room with it. `--bare` leaves out normals and texture
 // coordinates.
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ int main(int argc, char** argv) try {
   bool bare = false;
   app.add_option("FOLDER", folder, "where mesh and scene.xml go")->required();
   app.add_option("--triangles", triangles, "about how many")->check(CLI::Range(8u, 1000000000u));
-  app.add_option("--format", format, "of the mesh")->check(CLI::IsMember({"ply", "obj"}));
+  app.add_option("--format", format, "of the mesh")->check(CLI::IsMember({"ply", "obj", "serialized"}));
   app.add_flag("--bare", bare, "no normals, no texture coordinates");
   CLI11_PARSE(app, argc, argv);
 

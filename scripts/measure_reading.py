@@ -3,7 +3,7 @@
 
     scripts/measure_reading.py [--build FOLDER] [--megabytes N] [--runs N]
 
-Writes binary PLY and OBJ files of about so many megabytes, with and without normals and texture coordinates, to a
+Writes binary PLY, OBJ and serialized files of about so many megabytes, with and without normals and texture coordinates, to a
 temporary folder, reads each a few times on one core, and prints a row for each: the least processor time (which other
 load on the machine disturbs less than the clock's), the least time by the clock, and the peak of resident memory,
 also as a multiple of the file.
@@ -16,7 +16,8 @@ import tempfile
 import time
 
 # Bytes of the file per triangle, about: for the number of triangles that makes the size wanted.
-MESHES = [("ply", False, 29.0), ("ply", True, 19.0), ("obj", False, 102.0), ("obj", True, 38.4)]
+MESHES = [("ply", False, 29.0), ("ply", True, 19.0), ("obj", False, 102.0), ("obj", True, 38.4),
+          ("serialized", False, 15.5), ("serialized", True, 8.7)]
 
 
 def run(command):
