@@ -24,6 +24,7 @@ const Node* find_map(const Node& node, std::set<const Node*>& seen) {
 std::vector<Material> nested_bsdfs(Parameters& p, Builder& builder, std::size_t count) {
   const auto inside = p.children("bsdf");
   std::vector<Material> materials;
+  materials.reserve(inside.size());
   for (const Node::Child* child : inside) materials.push_back(builder.bsdf(*child->node));
   if (inside.size() == count) return materials;
   builder.diagnostics().error(
