@@ -60,7 +60,6 @@ SceneTables sphere_mesh(int triangles) {
     tables.surfaces.push_back({{f(n.x), f(n.y), f(n.z), f(glm::dot(n, p[0]))},
                                make_material(BsdfKind::diffuse, 0),
                                make_material(BsdfKind::diffuse, 0),
-                               kNone,
                                0});
   }
   ShapeRecord shape;

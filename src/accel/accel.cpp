@@ -28,9 +28,8 @@ Accel::Accel(const SceneTables& scene, AccelKind kind) {
     view_.triangle_extent = triangle_extent_.data();
   }
   if (kind == AccelKind::planes) {
-    const auto others = std::stable_partition(spheres_.begin(), spheres_.end(), [&](const SphereRecord& s) {
-      return scene.surfaces[s.primitive].light != kNone;
-    });
+    const auto others = std::stable_partition(
+        spheres_.begin(), spheres_.end(), [&](const SphereRecord& s) { return scene.light_of(s.primitive) != kNone; });
     view_.emitter_sphere_count = static_cast<std::uint32_t>(others - spheres_.begin());
     planes_ = build_planes(scene);
     view_.planes = planes_.planes.data();

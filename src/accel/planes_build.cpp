@@ -188,7 +188,7 @@ PlaneTables build_planes(const SceneTables& scene) {
   };
   tables.all = build_set([](const ConvexPolygon&) { return true; });
   tables.occluders = build_set([&](const ConvexPolygon& p) { return !bounds_the_scene(scene, p); });
-  tables.emitters = build_set([&](const ConvexPolygon& p) { return scene.surfaces[p.primitive].light != kNone; });
+  tables.emitters = build_set([&](const ConvexPolygon& p) { return scene.light_of(p.primitive) != kNone; });
   return tables;
 }
 

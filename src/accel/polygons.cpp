@@ -44,7 +44,7 @@ Triangle make_triangle(const SceneTables& scene, std::uint32_t i) {
 bool same_surface(const SceneTables& scene, std::uint32_t a, std::uint32_t b) {
   const SurfaceRecord &s = scene.surfaces[a], &t = scene.surfaces[b];
   return s.shape == t.shape && s.material_front == t.material_front && s.material_back == t.material_back &&
-         s.light == t.light && scene.shapes[s.shape].smooth == 0;
+         scene.light_of(a) == scene.light_of(b) && scene.shapes[s.shape].smooth == 0;
 }
 
 bool in_plane(const glm::dvec3& normal, double offset, const glm::dvec3& p) {

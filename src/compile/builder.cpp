@@ -362,7 +362,8 @@ void Builder::summarise() {
   info.emitter_samples = t.integrator.emitter_samples;
   info.table_bytes = bytes_of(t.positions) + bytes_of(t.normals) + bytes_of(t.texcoords) +
                      bytes_of(t.triangle_vertices) + bytes_of(t.surfaces) + bytes_of(t.shapes) + bytes_of(t.analytics) +
-                     bytes_of(t.instances) + bytes_of(t.parameters) + bytes_of(t.texels) + bytes_of(t.lights);
+                     bytes_of(t.instances) + bytes_of(t.parameters) + bytes_of(t.texels) + bytes_of(t.lights) +
+                     bytes_of(t.primitive_lights);
 }
 
 LoadedScene Builder::build(const LoadOptions& options) {

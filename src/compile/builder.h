@@ -125,6 +125,9 @@ class Builder {
   void add_environment(const Node& node, const LightRecord& light, const LightPower& power);
   /// The records of a shape's primitives, until the next shape is added.
   std::span<SurfaceRecord> surfaces_of(std::uint32_t shape) { return geometry_.surfaces_of(shape); }
+  void set_light(std::uint32_t shape, std::uint32_t primitive, std::uint32_t light) {
+    geometry_.set_light(shape, primitive, light);
+  }
   bool is_sphere(std::uint32_t shape) const { return geometry_.is_sphere(shape); }
   bool is_analytic(std::uint32_t shape) const { return geometry_.is_analytic(shape); }
   /// The group of shapes that a `shapegroup` node is; one that several instances refer to is compiled once.

@@ -98,7 +98,7 @@ std::uint32_t GeometryBuilder::add(ShapeGeometry geometry, Material material) {
 void GeometryBuilder::add_spheres(const std::vector<ShapeGeometry::Sphere>& spheres, Material material,
                                   ShapeRecord& record) {
   for (const ShapeGeometry::Sphere& sphere : spheres) {
-    SurfaceRecord surface{{}, material.front, material.back, kNone, next_shape()};
+    SurfaceRecord surface{{}, material.front, material.back, next_shape()};
     for (int axis = 0; axis < 3; ++axis) surface.geometry[axis] = static_cast<float>(sphere.center[axis]);
     surface.geometry[3] = static_cast<float>(sphere.radius);
     spheres_.push_back(surface);
@@ -110,7 +110,7 @@ void GeometryBuilder::add_spheres(const std::vector<ShapeGeometry::Sphere>& sphe
 }
 
 void GeometryBuilder::add_analytic(const AnalyticShape& analytic, Material material) {
-  SurfaceRecord surface{{}, material.front, material.back, kNone, next_shape()};
+  SurfaceRecord surface{{}, material.front, material.back, next_shape()};
   surface.geometry[0] = std::bit_cast<float>(static_cast<std::uint32_t>(tables_.analytics.size()));
   const std::uint32_t primitives = analytic.elements_are_primitives ? analytic.element_count : 1;
   for (std::uint32_t element = 0; element < primitives; ++element) {
@@ -162,9 +162,18 @@ void GeometryBuilder::add_triangles(MeshData mesh, Material material) {
                            static_cast<float>(glm::dot(n, a))},
                           material.front,
                           material.back,
-                          kNone,
                           next_shape()});
   }
+}
+
+void GeometryBuilder::set_light(std::uint32_t shape, std::uint32_t primitive, std::uint32_t light) {
+  ShapeRecord& record = tables_.shapes[shape];
+  std::vector<std::uint32_t>& lights = tables_.primitive_lights;
+  if (record.lights == kNone) {
+    record.lights = static_cast<std::uint32_t>(lights.size());
+    lights.resize(lights.size() + record.primitive_count, kNone);
+  }
+  lights[record.lights + primitive] = light;
 }
 
 std::uint32_t GeometryBuilder::end_group() {

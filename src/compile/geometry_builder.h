@@ -52,6 +52,8 @@ class GeometryBuilder {
   bool is_analytic(std::uint32_t shape) const { return classes_[shape] == Class::analytic; }
   /// The records of a shape's primitives, until the next shape is added.
   std::span<SurfaceRecord> surfaces_of(std::uint32_t shape);
+  /// Makes a primitive, counted within its shape, part of a light.
+  void set_light(std::uint32_t shape, std::uint32_t primitive, std::uint32_t light);
 
   /// What is added until `end_group` belongs to a group, which only its instances show. Groups are not nested.
   void begin_group() { group_ = tables_.group_count++; }

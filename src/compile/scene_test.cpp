@@ -62,9 +62,9 @@ TEST(HexagonRoom, WallsLookInwardsAndTheTetrahedronOutwards) {
   const Scene scene = load_room();
   const SceneTables& t = scene.tables().tables;
   int room = 0, tetrahedron = 0;
-  for (std::size_t i = 0; i < t.triangle_count(); ++i) {
+  for (std::uint32_t i = 0; i < t.triangle_count(); ++i) {
     const SurfaceRecord& surface = t.surfaces[i];
-    if (surface.light != kNone) continue;
+    if (t.light_of(i) != kNone) continue;
     // In the order of the file: floor, ceiling and six walls, then the tetrahedron.
     if (surface.shape < 8) {
       ++room;
@@ -107,9 +107,9 @@ TEST(HexagonRoom, HasTheReportsColours) {
   // Middles of the walls, in the order of the corners that they start at.
   const double middles[][2] = {{-1.5, 3}, {5, 6}, {11.5, 3}, {11.5, -3}, {5, -6}, {-1.5, -3}};
   int seen[6] = {};
-  for (std::size_t i = 0; i < 30; ++i) {
+  for (std::uint32_t i = 0; i < 30; ++i) {
     const auto [x, y, z] = centroid(t, i);
-    if (t.surfaces[i].light != kNone) {
+    if (t.light_of(i) != kNone) {
       EXPECT_EQ(material_kind(t.surfaces[i].material_front), BsdfKind::absorb);
       continue;
     }

@@ -26,9 +26,8 @@ void compile_emitter_area(Parameters& p, Builder& builder, std::uint32_t shape) 
     const double area = light.sampled ? double{light.record.area} : 0;
     const std::uint32_t index = builder.add_light(light.record, surface_power(area, radiance));
     for (const std::uint32_t primitive : light.primitives) {
-      SurfaceRecord& surface = builder.surfaces_of(shape)[primitive];
-      surface.light = index;
-      surface.material_front |= kEmitsBit;
+      builder.set_light(shape, primitive, index);
+      builder.surfaces_of(shape)[primitive].material_front |= kEmitsBit;
     }
   }
 }

@@ -74,8 +74,9 @@ TEST(AreaEmitter, ARectangleIsOneParallelogram) {
     EXPECT_EQ(low, -1);
     EXPECT_EQ(high, 1);
   }
-  for (const SurfaceRecord& surface : c.tables().surfaces) {
-    EXPECT_EQ(surface.light, 0u);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    const SurfaceRecord& surface = c.tables().surfaces[i];
+    EXPECT_EQ(c.tables().light_of(i), 0u);
     EXPECT_TRUE(surface.material_front & kEmitsBit);
     EXPECT_FALSE(surface.material_back & kEmitsBit);
     EXPECT_EQ(material_kind(surface.material_front), BsdfKind::absorb);  // Mitsuba's material for lights that name none
@@ -86,9 +87,8 @@ TEST(AreaEmitter, SurfacesThatDoNotShineHaveNoLight) {
   const Compiled c =
       compile_elements(kSensor + R"(<shape type="rectangle"/><shape type="rectangle">)" + kArea + "</shape>" + kShape);
   ASSERT_EQ(c.tables().surfaces.size(), 5u);
-  const auto lights =
-      std::vector{c.tables().surfaces[0].light, c.tables().surfaces[1].light, c.tables().surfaces[2].light,
-                  c.tables().surfaces[3].light, c.tables().surfaces[4].light};
+  const auto lights = std::vector{c.tables().light_of(0), c.tables().light_of(1), c.tables().light_of(2),
+                                  c.tables().light_of(3), c.tables().light_of(4)};
   EXPECT_THAT(lights, ElementsAre(kNone, kNone, 0u, 0u, kNone));
   EXPECT_FALSE(c.tables().surfaces[0].material_front & kEmitsBit);
   EXPECT_FALSE(c.tables().surfaces[4].material_front & kEmitsBit);
@@ -106,8 +106,8 @@ TEST(AreaEmitter, ASphereIsOneLight) {
   EXPECT_FLOAT_EQ(light.area, static_cast<float>(16 * std::numbers::pi));
   EXPECT_THAT(light.edge1, ElementsAre(2, 0, 0));
   EXPECT_THAT(c.tables().lights[1].edge1, ElementsAre(1, 1, 0));
-  EXPECT_EQ(c.tables().surfaces[0].light, 0u);
-  EXPECT_EQ(c.tables().surfaces[1].light, 1u);
+  EXPECT_EQ(c.tables().light_of(0), 0u);
+  EXPECT_EQ(c.tables().light_of(1), 1u);
   EXPECT_FLOAT_EQ(light.prob, 0.65f);  // half of 0.8, its share of the power, and half of a half
 }
 
@@ -120,7 +120,7 @@ TEST(AreaEmitter, TrianglesThatMakeNoParallelogramStayTriangles) {
     EXPECT_EQ(kite.tables().lights[i].kind, LightKind::triangle);
     EXPECT_EQ(kite.tables().lights[i].area, 3);
     EXPECT_EQ(kite.tables().lights[i].prob, 0.5f);
-    EXPECT_EQ(kite.tables().surfaces[i].light, i);
+    EXPECT_EQ(kite.tables().light_of(i), i);
   }
   // A parallelogram folded along its diagonal, and one whose halves face opposite ways.
   EXPECT_EQ(compile_mesh_light("v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 0\nf 1 2 4\nf 2 3 4\n").tables().lights.size(), 2u);
@@ -134,8 +134,8 @@ TEST(AreaEmitter, MergesAcrossVerticesOfOnePlaceAndToleratesRounding) {
       "v 102.2 0.3 7.3\nv 102.5 1.9 8.4\nv 100.4 1.7 8.4\nf 1 2 3\nf 4 5 6\n");
   ASSERT_EQ(c.tables().lights.size(), 1u);
   EXPECT_EQ(c.tables().lights[0].kind, LightKind::parallelogram);
-  EXPECT_EQ(c.tables().surfaces[0].light, 0u);
-  EXPECT_EQ(c.tables().surfaces[1].light, 0u);
+  EXPECT_EQ(c.tables().light_of(0), 0u);
+  EXPECT_EQ(c.tables().light_of(1), 0u);
   const glm::dvec3 e1(2.1, 0.2, 0), e2(0.3, 1.6, 1.1);
   const glm::dvec3 cross(e1.y * e2.z - e1.z * e2.y, e1.z * e2.x - e1.x * e2.z, e1.x * e2.y - e1.y * e2.x);
   EXPECT_NEAR(c.tables().lights[0].area, std::sqrt(cross.x * cross.x + cross.y * cross.y + cross.z * cross.z), 1e-4);
@@ -150,7 +150,7 @@ TEST(AreaEmitter, EveryTriangleOfAMeshIsInExactlyOneLight) {
       "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
   ASSERT_EQ(c.tables().lights.size(), 6u);
   std::vector<int> triangles(6, 0);
-  for (const SurfaceRecord& surface : c.tables().surfaces) ++triangles.at(surface.light);
+  for (std::uint32_t i = 0; i < c.tables().triangle_count(); ++i) ++triangles.at(c.tables().light_of(i));
   EXPECT_THAT(triangles, ElementsAre(2, 2, 2, 2, 2, 2));
   for (const LightRecord& light : c.tables().lights) {
     EXPECT_EQ(light.kind, LightKind::parallelogram);

@@ -83,6 +83,7 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   std::copy_n(tables.center, 3, view.center);
   view.radius = tables.radius;
   view.lights = tables.lights.data();
+  view.primitive_lights = tables.primitive_lights.data();
   view.triangle_count = tables.triangle_count();
   view.sphere_count = tables.sphere_count();
   view.analytics = tables.analytics.data();
@@ -94,7 +95,6 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   for (const SurfaceRecord& s : tables.surfaces) {
     view.bsdf_kinds |= 1u << static_cast<std::uint32_t>(material_kind(s.material_front));
     view.bsdf_kinds |= 1u << static_cast<std::uint32_t>(material_kind(s.material_back));
-    view.any_area_light = view.any_area_light || s.light != kNone;
   }
   view.any_resolved = view.bsdf_kinds >> kModelCount != 0;
   if (view.any_resolved) view.bsdf_kinds |= tables.bsdf_kinds | 1u << static_cast<std::uint32_t>(BsdfKind::absorb);
@@ -103,6 +103,7 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
     view.material_codes = 1u << tables.material_choices;
   }
   for (const LightRecord& light : tables.lights) view.light_kinds |= 1u << static_cast<std::uint32_t>(light.kind);
+  view.any_area_light = !tables.primitive_lights.empty();
   view.any_smooth =
       std::any_of(tables.shapes.begin(), tables.shapes.end(), [](const ShapeRecord& s) { return s.smooth != 0; });
   view.camera = tables.camera;

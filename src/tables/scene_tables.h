@@ -66,15 +66,14 @@ enum class AnalyticKind : std::uint32_t {
   count
 };
 
-/// One per primitive, in order: all triangles, then all spheres, then all analytic primitives. 32 bytes, gathered field
-/// by field.
+/// One per primitive, in order: all triangles, then all spheres, then all analytic primitives. Gathered field by field. Of
+/// large meshes these records are most of the memory, so what few surfaces have is told elsewhere.
 struct SurfaceRecord {
   /// Triangle: unit geometric normal n and n.p; sphere: centre and radius; analytic: the bits of its index in `analytics`
   /// and of the element's number in its shape.
   float geometry[4];
   MaterialWord material_front;  ///< for rays that come from the side the normal points to; with kEmitsBit on lights
   MaterialWord material_back;
-  std::uint32_t light;  ///< index into `lights` of the light this is part of, or kNone
   std::uint32_t shape;  ///< index into `shapes`
 };
 
@@ -86,6 +85,7 @@ struct ShapeRecord {
   std::uint32_t has_texcoords = 0;          ///< 1: the triangles' vertices have texture coordinates
   std::uint32_t object_from_world = kNone;  ///< spheres that are rotated: 9 floats in `parameters`, row by row
   std::uint32_t group = kNone;              ///< the group it is in, or kNone for the world
+  std::uint32_t lights = kNone;             ///< where its primitives begin in `primitive_lights`; kNone: no light
 };
 
 /// Where something with a space of its own stands. Affine maps, row by row; the fourth of each row is the translation.
@@ -226,6 +226,8 @@ struct SceneTables {
   std::uint32_t first_analytic = kNone;  ///< primitive; kNone if there is none
   std::vector<float> parameters;         ///< of BSDFs, textures and lights, each at its own offset
   std::vector<float> texels;             ///< of bitmaps and tables, each at its own offset
+  /// By primitive of the shapes that are lights, an index into `lights`.
+  std::vector<std::uint32_t> primitive_lights;
   std::vector<LightRecord> lights;
   std::uint32_t bsdf_kinds = 0;        ///< bit k: a material of BsdfKind k was made; it may be behind another one
   std::uint32_t material_choices = 0;  ///< the most that stand one behind the other before a model
@@ -241,6 +243,11 @@ struct SceneTables {
   IntegratorSettings integrator;
 
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(triangle_vertices.size() / 3); }
+  /// The light that a primitive is part of, or kNone.
+  std::uint32_t light_of(std::uint32_t primitive) const {
+    const ShapeRecord& shape = shapes[surfaces[primitive].shape];
+    return shape.lights == kNone ? kNone : primitive_lights[shape.lights + (primitive - shape.first_primitive)];
+  }
   std::uint32_t sphere_count() const {
     return std::min(first_analytic, static_cast<std::uint32_t>(surfaces.size())) - triangle_count();
   }

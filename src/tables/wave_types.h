@@ -26,6 +26,7 @@ struct SceneView {
   const float* texels = nullptr;
   const float* texcoords = nullptr;  ///< null if no shape has any
   const LightRecord* lights = nullptr;
+  const std::uint32_t* primitive_lights = nullptr;
   const AnalyticRecord* analytics = nullptr;
   const InstanceRecord* instances = nullptr;
   std::uint32_t triangle_count = 0, sphere_count = 0, light_count = 0, instance_count = 0;

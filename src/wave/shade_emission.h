@@ -13,7 +13,7 @@ inline void shade_emission(const SceneView& scene, const Queue& light_hits, Queu
   for (std::uint32_t i = 0; i < light_hits.count; i += kLanes) {
     const Mask active = first_lanes(light_hits.count - i);
     const Hit hit = load_hit(scene, light_hits, i);
-    const UInt light = gather_uint(surface_floats(scene) + 6, record_index(hit.primitive), active);
+    const UInt light = light_of(scene, hit.primitive, active);
     const auto* base = reinterpret_cast<const float*>(scene.lights);
     Vec3f emission = gather3(base + kLightEmission, light * UInt(kLightFloats), active);
     if (scene.texture_kinds != 0) {

@@ -35,7 +35,7 @@ inline void shade_features(const SceneView& scene, const Queue& hits, Queue& slo
     perturb_frame(scene, hit, surface, active);
     const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));
     const Vec3f albedo = Model::albedo(bsdf);
-    const UInt shape = gather_uint(surface_floats(scene) + 7, record_index(hit.primitive), active);
+    const UInt shape = shape_of(scene, hit.primitive, active);
     const UInt first_primitive = gather_uint(reinterpret_cast<const float*>(scene.shapes), shape_index(shape), active);
     const Float along_axis = dot(hit.ray.direction, broadcast(scene.camera.forward));
     const Float side = side_of_normal(scene, surface, shape, active);

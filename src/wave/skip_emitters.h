@@ -8,11 +8,6 @@ namespace norrsken::NORRSKEN_ISA {
 /// Emitters behind each other that are looked through: far more than any scene has, so that no ray goes on forever.
 inline constexpr int kMostSkipped = 256;
 
-/// Whether the primitive is part of a light, on whichever side.
-NORRSKEN_INLINE Mask is_emitter(const SceneView& scene, UInt primitive, Mask active) {
-  return gather_uint(surface_floats(scene) + 6, record_index(primitive), active) != UInt(kNone);
-}
-
 /// The ray of a hit goes on behind what it met.
 NORRSKEN_INLINE void step_behind(const SceneView& scene, Hit& hit, Mask active) {
   const SurfacePoint surface = make_surface_point(scene, hit, active);

@@ -33,6 +33,28 @@ NORRSKEN_INLINE Mask below(UInt a, std::uint32_t n) { return shift_right<31>(a -
 
 NORRSKEN_INLINE UInt shape_index(UInt shape) { return shape * UInt(sizeof(ShapeRecord) / sizeof(float)); }
 
+/// Where the primitives of a primitive's shape begin among those that are lights, or kNone.
+NORRSKEN_INLINE UInt lights_of_shape(const SceneView& scene, UInt shape, Mask active) {
+  return gather_uint(reinterpret_cast<const float*>(scene.shapes) + 7, shape_index(shape), active);
+}
+
+NORRSKEN_INLINE UInt shape_of(const SceneView& scene, UInt primitive, Mask active) {
+  return gather_uint(surface_floats(scene) + 6, record_index(primitive), active);
+}
+
+/// Whether the primitive is part of a light, on whichever side.
+NORRSKEN_INLINE Mask is_emitter(const SceneView& scene, UInt primitive, Mask active) {
+  return lights_of_shape(scene, shape_of(scene, primitive, active), active) != UInt(kNone);
+}
+
+/// The light that a primitive is part of, for lanes with one.
+NORRSKEN_INLINE UInt light_of(const SceneView& scene, UInt primitive, Mask active) {
+  const UInt shape = shape_of(scene, primitive, active);
+  const UInt first = gather_uint(reinterpret_cast<const float*>(scene.shapes), shape_index(shape), active);
+  return gather_uint(reinterpret_cast<const float*>(scene.primitive_lights),
+                     lights_of_shape(scene, shape, active) + (primitive - first), active);
+}
+
 /// A point of a triangle: its corners, and its barycentric coordinates recomputed from the position.
 struct TrianglePoint {
   UInt vertices[3];
@@ -151,7 +173,7 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
   Vec3f shading = s.normal;
   if (scene.any_smooth || scene.needs_uv) {
     const auto* shapes = reinterpret_cast<const float*>(scene.shapes);
-    s.texture.shape = gather_uint(records + 7, index, active);
+    s.texture.shape = gather_uint(records + 6, index, active);
     s.texture.primitive = hit.primitive;
     const UInt smooth = gather_uint(shapes + 2, shape_index(s.texture.shape), active);
     const Mask interpolate = triangle & (smooth != UInt(0u));
