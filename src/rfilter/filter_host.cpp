@@ -71,7 +71,7 @@ FilterRecord tabulate_filter(const FilterFunction& filter, std::vector<float>& t
   for (const Node& n : nodes) table.push_back(static_cast<float>(n.f / total));
   for (const double c : cdf) table.push_back(static_cast<float>(c));
   // As the kernel sees it, in floats, so that no number falls between two cells.
-  const std::vector<float> steps(table.begin() + 2 * record.nodes, table.end() - 1);
+  const std::vector<float> steps(table.begin() + std::ptrdiff_t{2} * record.nodes, table.end() - 1);
   for (std::uint32_t i = 0; i <= record.cells; ++i) {
     const float t = static_cast<float>(i) / static_cast<float>(record.cells);
     const auto above = std::ranges::upper_bound(steps, t);
