@@ -18,7 +18,6 @@ fi
 # What is not reached yet, each with its reason; a folder or a scene.
 not_yet=(
   participating_media/         # media are not supported
-  various_shapes/              # sdfgrid is not supported
 )
 if [[ ${#filters[@]} -eq 0 ]]; then
   for scene in "$peer"/tests/scenes/*/*_*.xml; do

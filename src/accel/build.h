@@ -24,6 +24,12 @@ PlaneTables build_planes(const SceneTables& scene);
 /// The spheres in order of their primitives.
 std::vector<SphereRecord> build_spheres(const SceneTables& scene);
 
+/// A shape made of elements, as Embree's callbacks find it.
+struct ElementShape {
+  const AnalyticRecord* record;
+  const float* table;  ///< what its host file left for it
+};
+
 /// The world as an Embree scene, with a scene of its own for every group that instances place in it.
 class EmbreeScene {
  public:
@@ -43,8 +49,9 @@ class EmbreeScene {
   void add_instances(const SceneTables& scene, const std::vector<std::uint32_t>& group_geometries);
 
   void* device_ = nullptr;
-  void* positions_ = nullptr;  ///< RTCBuffer of all vertices
-  std::vector<void*> scenes_;  ///< RTCScene: the world, then the groups
+  void* positions_ = nullptr;                 ///< RTCBuffer of all vertices
+  std::vector<void*> scenes_;                 ///< RTCScene: the world, then the groups
+  std::vector<ElementShape> element_shapes_;  ///< one for each of the scene's `analytics`, made of elements or not
   std::vector<EmbreeGeometry> geometries_;
   std::vector<std::uint32_t> instance_geometries_;
   std::uint32_t first_instance_ = 0;

@@ -17,14 +17,15 @@ struct Run {
   std::uint32_t first, count;
 };
 
-const AnalyticRecord& analytic_of(const SceneTables& scene, std::uint32_t primitive) {
-  return scene.analytics[std::bit_cast<std::uint32_t>(scene.surfaces[primitive].geometry[0])];
+std::uint32_t analytic_of(const SceneTables& scene, std::uint32_t primitive) {
+  return std::bit_cast<std::uint32_t>(scene.surfaces[primitive].geometry[0]);
 }
 
 Run::Class class_of(const SceneTables& scene, std::uint32_t primitive) {
   if (primitive < scene.triangle_count()) return Run::Class::triangles;
   if (primitive < scene.first_analytic) return Run::Class::spheres;
-  return has_elements(analytic_of(scene, primitive).kind) ? Run::Class::elements : Run::Class::analytic;
+  return has_elements(scene.analytics[analytic_of(scene, primitive)].kind) ? Run::Class::elements
+                                                                           : Run::Class::analytic;
 }
 
 std::vector<Run> runs_of_group(const SceneTables& scene, std::uint32_t group) {
@@ -53,16 +54,16 @@ RTCGeometry make_triangles(RTCDevice device, const SceneTables& scene, RTCBuffer
 }
 
 RTCGeometry make_geometry(RTCDevice device, const SceneTables& scene, const std::vector<SphereRecord>& spheres,
-                          RTCBuffer positions, const Run& run) {
+                          const std::vector<ElementShape>& element_shapes, RTCBuffer positions, const Run& run) {
   switch (run.of) {
     case Run::Class::triangles:
       return make_triangles(device, scene, positions, run);
     case Run::Class::spheres:
       return make_embree_spheres(device, {spheres.data() + (run.first - scene.triangle_count()), run.count});
     case Run::Class::analytic:
-      return make_embree_analytics(device, {&analytic_of(scene, run.first), run.count});
+      return make_embree_analytics(device, {&scene.analytics[analytic_of(scene, run.first)], run.count});
     case Run::Class::elements:
-      return make_embree_elements(device, scene, analytic_of(scene, run.first));
+      return make_embree_elements(device, element_shapes[analytic_of(scene, run.first)]);
   }
   return nullptr;
 }
@@ -94,6 +95,8 @@ EmbreeScene::EmbreeScene() {
 EmbreeScene::EmbreeScene(const SceneTables& scene, const std::vector<SphereRecord>& spheres) : EmbreeScene() {
   const auto device = static_cast<RTCDevice>(device_);
   positions_ = copy_positions(device, scene.positions);
+  for (const AnalyticRecord& record : scene.analytics)
+    element_shapes_.push_back({&record, scene.texels.data() + record.table});
   add_group(scene, spheres, kNone);
   std::vector<std::uint32_t> group_geometries;
   for (std::uint32_t g = 0; g < scene.group_count; ++g) group_geometries.push_back(add_group(scene, spheres, g));
@@ -116,7 +119,8 @@ std::uint32_t EmbreeScene::add_group(const SceneTables& scene, const std::vector
   scenes_.push_back(embree);
   const auto first = static_cast<std::uint32_t>(geometries_.size());
   for (const Run& run : runs_of_group(scene, group)) {
-    RTCGeometry geometry = make_geometry(device, scene, spheres, static_cast<RTCBuffer>(positions_), run);
+    RTCGeometry geometry =
+        make_geometry(device, scene, spheres, element_shapes_, static_cast<RTCBuffer>(positions_), run);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(embree, geometry, static_cast<std::uint32_t>(geometries_.size()) - first);
     rtcReleaseGeometry(geometry);

@@ -1,7 +1,9 @@
 #include "accel/embree_elements.h"
 
+#include "accel/embree_grid.h"
 #include "shape/cylinder.h"
 #include "shape/disk.h"
+#include "shape/sdfgrid.h"
 
 namespace norrsken {
 
@@ -18,8 +20,13 @@ bool has_elements(AnalyticKind kind) {
   return false;
 }
 
-RTCGeometry make_embree_elements(RTCDevice /*device*/, const SceneTables& /*scene*/, const AnalyticRecord& /*shape*/) {
-  return nullptr;  // no kind has any yet
+RTCGeometry make_embree_elements(RTCDevice device, const ElementShape& shape) {
+  switch (shape.record->kind) {
+    case AnalyticKind::sdfgrid:
+      return make_embree_grid(device, shape);
+    default:
+      return nullptr;  // made of one piece
+  }
 }
 
 }  // namespace norrsken

@@ -3,14 +3,14 @@
 
 #include <embree3/rtcore.h>
 
-#include "tables/scene_tables.h"
+#include "accel/build.h"
 
 namespace norrsken {
 
 /// Whether shapes of the kind are made of elements, see src/shape/shape.h.
 bool has_elements(AnalyticKind kind);
 
-/// The geometry of one such shape, to commit and attach; borrows the scene.
-RTCGeometry make_embree_elements(RTCDevice device, const SceneTables& scene, const AnalyticRecord& shape);
+/// The geometry of one such shape, to commit and attach; borrows the shape.
+RTCGeometry make_embree_elements(RTCDevice device, const ElementShape& shape);
 
 }  // namespace norrsken

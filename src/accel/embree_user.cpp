@@ -3,28 +3,20 @@
 #include <cmath>
 #include <limits>
 
+#include "accel/embree_callbacks.h"
 #include "accel/sphere.h"
 #include "math/affine.h"
 #include "shape/cylinder.h"
 #include "shape/disk.h"
+#include "shape/sdfgrid.h"
 
 namespace norrsken {
 namespace {
 
 using isa_host::Vec3f;
 
-constexpr float kNowhere = std::numeric_limits<float>::infinity();
 /// Boxes are a little larger, so that rounding cannot put a surface outside of its box.
 constexpr float kSlack = 4 * std::numeric_limits<float>::epsilon();
-
-/// A user primitive's answer: distance along the ray, infinite if it is not met nearer than `t_max`, and its normal,
-/// of any length.
-struct Met {
-  float t = kNowhere;
-  Vec3f normal{0.0f, 0.0f, 0.0f};
-};
-
-// --- what the primitives are: records with their bounds and their meeting with a ray, whose direction may have any length
 
 void bounds_of(const SphereRecord& s, RTCBounds& b) {
   const float r = s.radius * (1 + kSlack);
@@ -86,68 +78,24 @@ Met meet(const AnalyticRecord& a, const Vec3f& o, const Vec3f& d, float t_max) {
   return {};
 }
 
-// --- Embree's side
-
 template <class Record>
-Met meet_ray(const Record& record, RTCRayN* rays, unsigned n, unsigned i) {
-  return meet(record, {RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
-              {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
-              RTCRayN_tfar(rays, n, i));
-}
-
-template <class Record>
-void bounds_callback(const RTCBoundsFunctionArguments* args) {
-  bounds_of(static_cast<const Record*>(args->geometryUserPtr)[args->primID], *args->bounds_o);
-}
-
-template <class Record>
-void intersect_callback(const RTCIntersectFunctionNArguments* args) {
-  const Record& record = static_cast<const Record*>(args->geometryUserPtr)[args->primID];
-  RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
-  RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
-  for (unsigned i = 0; i < args->N; ++i) {
-    if (args->valid[i] == 0) continue;
-    const Met met = meet_ray(record, rays, args->N, i);
-    if (met.t == kNowhere) continue;
-    RTCRayN_tfar(rays, args->N, i) = met.t;
-    RTCHitN_Ng_x(hits, args->N, i) = met.normal.x.v;
-    RTCHitN_Ng_y(hits, args->N, i) = met.normal.y.v;
-    RTCHitN_Ng_z(hits, args->N, i) = met.normal.z.v;
-    RTCHitN_geomID(hits, args->N, i) = args->geomID;
-    RTCHitN_primID(hits, args->N, i) = args->primID;
-    RTCHitN_instID(hits, args->N, i, 0) = args->context->instID[0];
+struct Records {
+  static void bounds_of(const void* records, unsigned i, RTCBounds& b) {
+    norrsken::bounds_of(static_cast<const Record*>(records)[i], b);
   }
-}
-
-template <class Record>
-void occluded_callback(const RTCOccludedFunctionNArguments* args) {
-  const Record& record = static_cast<const Record*>(args->geometryUserPtr)[args->primID];
-  for (unsigned i = 0; i < args->N; ++i) {
-    if (args->valid[i] == 0) continue;
-    if (meet_ray(record, args->ray, args->N, i).t == kNowhere) continue;
-    RTCRayN_tfar(args->ray, args->N, i) = -kNowhere;
+  static Met meet(const void* records, unsigned i, const Vec3f& o, const Vec3f& d, float t_max) {
+    return norrsken::meet(static_cast<const Record*>(records)[i], o, d, t_max);
   }
-}
-
-template <class Record>
-RTCGeometry make_user_geometry(RTCDevice device, std::span<const Record> records) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(records.size()));
-  rtcSetGeometryUserData(geometry, const_cast<Record*>(records.data()));
-  rtcSetGeometryBoundsFunction(geometry, bounds_callback<Record>, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, intersect_callback<Record>);
-  rtcSetGeometryOccludedFunction(geometry, occluded_callback<Record>);
-  return geometry;
-}
+};
 
 }  // namespace
 
 RTCGeometry make_embree_spheres(RTCDevice device, std::span<const SphereRecord> spheres) {
-  return make_user_geometry(device, spheres);
+  return make_user_geometry<Records<SphereRecord>>(device, spheres.data(), spheres.size());
 }
 
 RTCGeometry make_embree_analytics(RTCDevice device, std::span<const AnalyticRecord> shapes) {
-  return make_user_geometry(device, shapes);
+  return make_user_geometry<Records<AnalyticRecord>>(device, shapes.data(), shapes.size());
 }
 
 }  // namespace norrsken

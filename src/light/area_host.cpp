@@ -13,6 +13,7 @@
 #include "light/light_host.h"
 #include "shape/cylinder.h"
 #include "shape/disk.h"
+#include "shape/sdfgrid.h"
 
 namespace norrsken {
 namespace {

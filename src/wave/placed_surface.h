@@ -6,6 +6,7 @@
 #include "accel/hit.h"
 #include "shape/cylinder.h"
 #include "shape/disk.h"
+#include "shape/sdfgrid.h"
 #include "tables/wave_types.h"
 #include "wave/records.h"
 

@@ -30,7 +30,8 @@ std::string right(const Row& row) { return element(row.type, row.name, row.right
 const Files& assets() {
   static const Files files = [] {
     Files read;
-    for (const char* name : {"card.png", "relief.png", "star.obj", "knot.ply", "gear.serialized", "sky.exr"}) {
+    for (const char* name :
+         {"card.png", "relief.png", "star.obj", "knot.ply", "gear.serialized", "rings.vol", "sky.exr"}) {
       std::ostringstream bytes;
       bytes << std::ifstream(std::string(NORRSKEN_TEST_ASSETS "/") + name, std::ios::binary).rdbuf();
       read[name] = bytes.str();

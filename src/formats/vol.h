@@ -1,0 +1,25 @@
+// Reader of Mitsuba's volume files: values on a grid.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "norrsken/diagnostics.h"
+
+namespace norrsken {
+
+/// What a volume file holds; x varies fastest, then y, then z.
+struct VolumeData {
+  std::array<std::uint32_t, 3> size{};  ///< values along x, y and z, 1 or more
+  std::uint32_t channels = 0;           ///< 1 or more
+  std::vector<float> values;            ///< `channels` for each place, all finite
+};
+
+/// Version 3 with 32-bit floats, all there is. The bounding box in the header is skipped.
+std::optional<VolumeData> read_vol(std::string_view bytes, const std::string& path, Diagnostics& diagnostics);
+
+}  // namespace norrsken
