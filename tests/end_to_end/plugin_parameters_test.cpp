@@ -30,8 +30,8 @@ std::string right(const Row& row) { return element(row.type, row.name, row.right
 const Files& assets() {
   static const Files files = [] {
     Files read;
-    for (const char* name :
-         {"card.png", "relief.png", "star.obj", "knot.ply", "gear.serialized", "rings.vol", "sky.exr"}) {
+    for (const char* name : {"card.png", "relief.png", "star.obj", "knot.ply", "gear.serialized", "rings.vol",
+                             "sky.exr", "grass.txt", "tendrils.txt"}) {
       std::ostringstream bytes;
       bytes << std::ifstream(std::string(NORRSKEN_TEST_ASSETS "/") + name, std::ios::binary).rdbuf();
       read[name] = bytes.str();
@@ -134,12 +134,8 @@ TEST_P(EveryPlugin, NamesItsParametersIfOneIsUnused) {
                                                   GetParam().name, accepted.empty() ? "no parameters" : accepted)));
 }
 
-INSTANTIATE_TEST_SUITE_P(, EveryPlugin, ::testing::ValuesIn(kPlugins),
-                         [](const auto& test) { return std::string(test.param.kind) + "_" + test.param.name; });
-
-TEST(PluginTable, HasEveryPluginOfTheLists) {
-  std::set<std::string> tested;
-  for (const Plugin& plugin : kPlugins) tested.insert(std::string(plugin.kind) + " " + plugin.name);
+/// "bsdf diffuse", "bsdf conductor", ...
+std::set<std::string> plugins_of_the_lists() {
   std::set<std::string> listed;
 #define NORRSKEN_BSDF(kind, Model) listed.insert("bsdf " #kind);
 #define NORRSKEN_BSDF_RESOLVED(name, Adapter) listed.insert("bsdf " #name);
@@ -163,7 +159,24 @@ TEST(PluginTable, HasEveryPluginOfTheLists) {
 #include "sampler/plugins.def"
 #include "shape/plugins.def"
 #include "texture/list.def"
-  EXPECT_EQ(tested, listed);
+  return listed;
+}
+
+/// Those of the table that a build has.
+std::vector<Plugin> tested_plugins() {
+  const auto listed = plugins_of_the_lists();
+  std::vector<Plugin> tested(std::begin(kPlugins), std::end(kPlugins));
+  std::erase_if(tested, [&](const Plugin& p) { return !listed.contains(std::string(p.kind) + " " + p.name); });
+  return tested;
+}
+
+INSTANTIATE_TEST_SUITE_P(, EveryPlugin, ::testing::ValuesIn(tested_plugins()),
+                         [](const auto& test) { return std::string(test.param.kind) + "_" + test.param.name; });
+
+TEST(PluginTable, HasEveryPluginOfTheLists) {
+  std::set<std::string> tested;
+  for (const Plugin& plugin : tested_plugins()) tested.insert(std::string(plugin.kind) + " " + plugin.name);
+  EXPECT_EQ(tested, plugins_of_the_lists());
 }
 
 }  // namespace
