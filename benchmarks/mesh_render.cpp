@@ -117,8 +117,9 @@ std::vector<Batch> rays_of_render(const SceneView& scene, const KernelEntry& ker
   WaveArena kept, whole;
   WaveCounts counts;
   std::vector<Batch> batches;
-  const WorkPlan plan(static_cast<std::uint32_t>(scene.film.width), static_cast<std::uint32_t>(scene.film.height),
-                      samples, kWaveSlots);
+  const TileGrid grid(static_cast<std::uint32_t>(scene.film.width), static_cast<std::uint32_t>(scene.film.height),
+                      kWaveSlots);
+  const WorkPlan plan(grid, {0, static_cast<std::uint32_t>(samples)}, 0);
   for (std::uint64_t wave = 0; wave < plan.wave_count(); ++wave) {
     const WaveJob job = plan.wave(wave);
     trace_and_keep(scene, kernels, job, kept.memory(), batches);
@@ -168,8 +169,10 @@ void trace_all_bare(RTCScene scene, const std::vector<Batch>& batches, bool inte
 void render(const SceneView& scene, const KernelEntry& kernels, std::uint64_t samples, int threads) {
   const std::atomic<bool> cancelled{false};
   Film film(scene.film, scene.sampler.kind);
-  Crew crew(scene, kernels, film, threads, cancelled);
-  crew.run(samples, {});
+  const TileGrid grid = Crew::grid(scene, film.width(), film.height());
+  Work work{grid, {0, static_cast<std::uint32_t>(samples)}, {}, TileProgress(grid.tile_count()), {}, {}};
+  Crew crew(scene, kernels, film, work, threads, cancelled);
+  crew.run({std::chrono::milliseconds(100), [] { return true; }});
 }
 
 /// By the clock, and by the processor: all threads' seconds over their number, which other work disturbs less.

@@ -75,11 +75,11 @@ void register_stages(const KernelEntry& kernels) {
     return w.memory.shadow_rays.count;
   });
   stage("accumulate_film", kernels, [&](StoppedWave& w) {
-    static std::vector<double> sums(6 * 800 * 800);
+    static std::vector<double> high(6 * 800 * 800), low(6 * 800 * 800);
     static std::vector<std::uint32_t> counts(800 * 800);
     DroppedSamples dropped;
     FilmView film;
-    film.sums = sums.data();
+    film.sums = {high.data(), low.data()};
     film.counts = counts.data();
     film.width = film.height = 800;
     kernels.accumulate_film(w.job, SamplerKind::independent, w.memory.slots, film, dropped);

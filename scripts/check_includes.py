@@ -74,6 +74,7 @@ LIBRARIES = {
     "OpenImageIO/": ["film", "formats"],
     "pugixml.hpp": ["formats"],
     "zlib.h": ["formats"],
+    "xxhash.h": ["base"],
     "CLI/": ["apps"],
     "gtest/": ["tests"],
     "gmock/": ["tests"],

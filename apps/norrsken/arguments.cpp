@@ -104,6 +104,26 @@ std::pair<int, int> parse_size(const std::string& text) {
   return {*width, *height};
 }
 
+std::optional<double> parse_duration(const std::string& text) {
+  constexpr double kLongest = 1e9;  // 30 years
+  constexpr std::pair<char, double> kUnits[] = {{'s', 1}, {'m', 60}, {'h', 3600}};
+  for (const auto& [unit, seconds] : kUnits) {
+    if (text.empty() || text.back() != unit) continue;
+    const auto count = parse_number<double>(std::string_view(text).substr(0, text.size() - 1));
+    if (count && *count > 0 && *count * seconds <= kLongest) return *count * seconds;
+  }
+  return std::nullopt;
+}
+
+std::optional<SampleRange> parse_samples(const std::string& text) {
+  const auto colon = text.find(':');
+  if (colon == std::string::npos) return std::nullopt;
+  const auto first = parse_number<int>(std::string_view(text).substr(0, colon));
+  const auto end = parse_number<int>(std::string_view(text).substr(colon + 1));
+  if (!first || !end || *first < 0 || *end <= *first) return std::nullopt;
+  return SampleRange{static_cast<std::uint32_t>(*first), static_cast<std::uint32_t>(*end)};
+}
+
 CLI::Validator whole_number(std::int64_t min, std::int64_t max) {
   return CLI::Validator(
       [=](const std::string& text) {
@@ -154,6 +174,22 @@ CLI::Validator definition() {
   return CLI::Validator(
       [](const std::string& text) {
         return parse_definition(text).first.empty() ? found(text, "NAME=VALUE, as in -Dlight=point") : std::string();
+      },
+      "");
+}
+
+CLI::Validator duration() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return parse_duration(text) ? std::string() : found(text, "a time with its unit, as in 90s, 1.5m or 2h");
+      },
+      "");
+}
+
+CLI::Validator sample_range() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return parse_samples(text) ? std::string() : found(text, "FIRST:END, as in 0:64 for the samples 0 to 63");
       },
       "");
 }

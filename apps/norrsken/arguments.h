@@ -27,6 +27,11 @@ std::pair<std::string, std::string> parse_definition(const std::string& text);
 /// "800x600" or "800X600": width and height of at least 1; (0, 0) if it is anything else.
 std::pair<int, int> parse_size(const std::string& text);
 
+/// "90s", "1.5m", "2h": seconds, greater than 0; empty if it is anything else.
+std::optional<double> parse_duration(const std::string& text);
+/// "16:64": samples 16 to 63; empty if it is anything else, or no sample.
+std::optional<SampleRange> parse_samples(const std::string& text);
+
 // Checks of one value; a complaint tells what was found and what is accepted.
 CLI::Validator whole_number(std::int64_t min, std::int64_t max);
 CLI::Validator seed_number();
@@ -34,6 +39,8 @@ CLI::Validator real_number(double min, double max);
 CLI::Validator one_of(std::vector<std::string> words);
 CLI::Validator image_size();
 CLI::Validator definition();
+CLI::Validator duration();
+CLI::Validator sample_range();
 
 /// The scene and what may be said over its head: SCENE, -D, --integrator, --sampler, --size, --spp.
 struct SceneArguments {

@@ -25,6 +25,21 @@ TEST(ParseSize, TakesTwoPositiveWholeNumbersAndNothingElse) {
     EXPECT_THAT(parse_size(wrong), Pair(0, 0)) << wrong;
 }
 
+TEST(ParseDuration, TakesANumberWithItsUnit) {
+  EXPECT_EQ(parse_duration("90s"), 90.0);
+  EXPECT_EQ(parse_duration("1.5m"), 90.0);
+  EXPECT_EQ(parse_duration("2h"), 7200.0);
+  for (const char* wrong : {"", "s", "90", "0s", "-1s", "1d", "1 m", "1ms", "infs", "nans", "1e30h"})
+    EXPECT_EQ(parse_duration(wrong), std::nullopt) << wrong;
+}
+
+TEST(ParseSamples, TakesARangeThatIsNotEmpty) {
+  EXPECT_EQ(parse_samples("16:64"), (SampleRange{16, 64}));
+  EXPECT_EQ(parse_samples("0:2147483647"), (SampleRange{0, 2147483647}));
+  for (const char* wrong : {"", ":", "16", "16:", ":64", "64:16", "4:4", "-1:4", "1:2:3", "1.5:4", "0:2147483648"})
+    EXPECT_EQ(parse_samples(wrong), std::nullopt) << wrong;
+}
+
 TEST(WholeNumber, NamesWhatWasFoundAndWhatIsAccepted) {
   const CLI::Validator check = whole_number(1, 100);
   EXPECT_EQ(check(std::string("1")), "");

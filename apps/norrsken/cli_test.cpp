@@ -75,6 +75,8 @@ TEST_F(Cli, HelpAndVersionGoToStdout) {
     EXPECT_THAT(help.out, AllOf(Not(HasSubstr("REQUIRED")), Not(HasSubstr("Excludes")), Not(HasSubstr("..."))));
     EXPECT_THAT(help.err, IsEmpty());
   }
+  EXPECT_THAT(run({"merge", "--help"}).out,
+              AllOf(HasSubstr("norrsken merge [OPTIONS] FILE...\n"), HasSubstr("Example")));
   const ProcessResult version = run({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.out, AllOf(StartsWith("norrsken "), HasSubstr("scalar")));

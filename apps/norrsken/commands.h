@@ -6,6 +6,7 @@
 namespace norrsken::cli {
 
 void add_render_command(CLI::App& app, Action& action);
+void add_merge_command(CLI::App& app, Action& action);
 void add_info_command(CLI::App& app, Action& action);
 void add_scenes_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);

@@ -37,6 +37,7 @@ ExitStatus run(int argc, char** argv) {
       "73 cannot create output, 74 write error, 77 interrupted (render saves what there is).");
   Action action;
   add_render_command(app, action);
+  add_merge_command(app, action);
   add_info_command(app, action);
   add_scenes_command(app, action);
   add_compare_command(app, action);

@@ -4,9 +4,11 @@
 #include <poll.h>
 #include <pty.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <stdexcept>
@@ -42,6 +44,10 @@ Channel open_terminal() {
   unsetenv("NO_COLOR");
   setenv("TERM", "xterm", 1);
   for (const std::string& entry : options.environment) putenv(const_cast<char*>(entry.c_str()));
+  if (options.largest_file > 0) {
+    const rlimit limit{options.largest_file, options.largest_file};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
   if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);
   if (!options.stdout_file.empty()) out = open(options.stdout_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
@@ -70,7 +76,11 @@ ProcessResult run_program(const std::vector<std::string>& arguments, const Proce
   std::size_t signals_sent = 0;
   std::array<pollfd, 2> files = {{{out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}}};
   while (files[0].fd >= 0 || files[1].fd >= 0) {
-    poll(files.data(), files.size(), 20);
+    constexpr std::chrono::milliseconds kLongest(20);
+    const auto wait = signals_sent < options.signals.size()
+                          ? std::chrono::duration_cast<std::chrono::milliseconds>(next_signal - Clock::now())
+                          : kLongest;
+    poll(files.data(), files.size(), static_cast<int>(std::clamp<std::int64_t>(wait.count(), 0, kLongest.count())));
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (files[i].fd < 0 || files[i].revents == 0) continue;
       std::array<char, 4096> buffer;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct ProcessOptions {
   std::vector<std::string> environment = {};    ///< "NAME=value", in addition
   bool terminal = false;                        ///< stderr is a terminal of 80 columns (and then arrives in `err`)
   std::string stdout_file = {};                 ///< where stdout goes in place of `out`
+  std::uint64_t largest_file = 0;               ///< bytes beyond which no file grows; 0: without limit
   std::vector<int> signals = {};                ///< sent one after the other ...
   std::chrono::milliseconds signal_delay{700};  ///< ... each after this time
 };

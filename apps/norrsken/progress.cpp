@@ -32,10 +32,10 @@ bool is_last(const RenderProgress& progress) { return progress.samples_done >= p
 }  // namespace
 
 std::optional<double> seconds_left(const RenderProgress& progress) {
-  if (progress.samples_done == 0 || progress.elapsed_seconds <= 0) return std::nullopt;
   if (is_last(progress)) return 0;
-  const double done = static_cast<double>(progress.samples_done);
-  return progress.elapsed_seconds * (static_cast<double>(progress.samples_total) - done) / done;
+  const double done = static_cast<double>(progress.samples_done - progress.samples_resumed);
+  if (done <= 0 || progress.elapsed_seconds <= 0) return std::nullopt;
+  return progress.elapsed_seconds * static_cast<double>(progress.samples_total - progress.samples_done) / done;
 }
 
 std::string progress_line(const std::string& label, const RenderProgress& progress, int columns) {
@@ -102,6 +102,12 @@ void ProgressMeter::announce(std::string_view message) {
   if (verbosity_ != Verbosity::text || std::exchange(has_announced_, true)) return;
   finish();
   print_note(message);
+}
+
+void ProgressMeter::warn(const std::string& message) {
+  if (std::exchange(warned_, message) == message) return;
+  finish();
+  print_warning(message);
 }
 
 void ProgressMeter::finish() {

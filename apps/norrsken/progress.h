@@ -33,6 +33,8 @@ class ProgressMeter {
   void update(const RenderProgress& progress);
   /// Says something, in text only and once in a rendering however often it is called.
   void announce(std::string_view message);
+  /// A warning, whatever is asked for, whenever it is another one than the last.
+  void warn(const std::string& message);
   /// Removes the rewritten line, so that other text can follow.
   void finish();
 
@@ -42,6 +44,7 @@ class ProgressMeter {
   Verbosity verbosity_;
   std::string label_;
   Clock::time_point last_ = Clock::now();
+  std::string warned_;
   bool line_is_shown_ = false, has_announced_ = false;
 };
 

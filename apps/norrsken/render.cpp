@@ -21,6 +21,7 @@ struct Arguments {
   ToneArguments tone;
   std::vector<std::string> outputs;
   std::uint64_t seed = 0;
+  std::string samples, checkpoint, checkpoint_every = "60s";
   bool layers = false, features = false, quiet = false, json = false;
 
   Verbosity verbosity() const { return quiet ? Verbosity::quiet : json ? Verbosity::json : Verbosity::text; }
@@ -61,6 +62,16 @@ void warn_about_useless_options(const Arguments& arguments) {
     print_warning("EXR files hold linear radiance: --exposure and --tone change PNG and JPEG files only");
 }
 
+nlohmann::ordered_json or_null(const std::string& text) {
+  return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
+}
+
+/// Samples of each pixel that are asked for.
+int sample_count(const Arguments& arguments, const SceneInfo& info) {
+  const auto range = parse_samples(arguments.samples);
+  return range ? static_cast<int>(range->count()) : info.samples_per_pixel;
+}
+
 void tell_start(const Arguments& arguments, const SceneInfo& info) {
   if (arguments.json) {
     print_json({{"event", "start"},
@@ -68,8 +79,10 @@ void tell_start(const Arguments& arguments, const SceneInfo& info) {
                 {"scene", arguments.scene.scene},
                 {"width", info.width},
                 {"height", info.height},
-                {"samples_per_pixel", info.samples_per_pixel},
+                {"samples_per_pixel", sample_count(arguments, info)},
                 {"seed", arguments.seed},
+                {"samples", or_null(arguments.samples)},
+                {"checkpoint", or_null(arguments.checkpoint)},
                 {"integrator", info.integrator},
                 {"max_depth", info.max_depth},
                 {"emitter_samples", info.emitter_samples},
@@ -77,8 +90,8 @@ void tell_start(const Arguments& arguments, const SceneInfo& info) {
                 {"files", arguments.outputs}});
   } else if (!arguments.quiet) {
     print_note(fmt::format("{}: {} x {} pixels, {} per pixel ({}), {}, {} per hit", arguments.scene.scene, info.width,
-                           info.height, format_plural(info.samples_per_pixel, "sample"), info.sampler, info.integrator,
-                           format_plural(info.emitter_samples, "shadow ray")));
+                           info.height, format_plural(sample_count(arguments, info), "sample"), info.sampler,
+                           info.integrator, format_plural(info.emitter_samples, "shadow ray")));
   }
 }
 
@@ -109,6 +122,8 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
                const std::vector<std::string>& written) {
   const double pixels = static_cast<double>(info.width) * info.height;
   const double samples = static_cast<double>(statistics.samples);
+  const double taken = static_cast<double>(statistics.samples - statistics.samples_resumed);
+  const double seconds = std::max(statistics.seconds, 1e-9);
   const double rays = static_cast<double>(statistics.closest_rays + statistics.shadow_rays);
   if (arguments.json) {
     auto dropped = nlohmann::ordered_json::array();
@@ -118,11 +133,12 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
                                      {"interrupted", statistics.cancelled},
                                      {"seconds", statistics.seconds},
                                      {"samples", statistics.samples},
+                                     {"samples_resumed", statistics.samples_resumed},
                                      {"samples_per_pixel", samples / pixels},
-                                     {"samples_per_second", samples / statistics.seconds},
+                                     {"samples_per_second", taken / seconds},
                                      {"closest_rays", statistics.closest_rays},
                                      {"shadow_rays", statistics.shadow_rays},
-                                     {"rays_per_second", rays / statistics.seconds},
+                                     {"rays_per_second", rays / seconds},
                                      {"relative_error", nullptr},
                                      {"dropped_samples", statistics.dropped_samples},
                                      {"dropped", dropped},
@@ -136,9 +152,11 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
     return;
   }
   if (arguments.quiet) return;
-  std::string text = fmt::format("{} samples in {}, {} Msamples/s, {} Mrays/s", format_count(samples),
-                                 format_duration(statistics.seconds), format_digits(samples / statistics.seconds / 1e6),
-                                 format_digits(rays / statistics.seconds / 1e6));
+  std::string text = fmt::format("{} samples in {}, {} Msamples/s, {} Mrays/s", format_count(taken),
+                                 format_duration(statistics.seconds), format_digits(taken / seconds / 1e6),
+                                 format_digits(rays / seconds / 1e6));
+  if (statistics.samples_resumed > 0)
+    text += fmt::format(", {} from the checkpoint", format_count(static_cast<double>(statistics.samples_resumed)));
   if (statistics.relative_error >= 0)
     text += fmt::format(", estimated error {}", format_percent(statistics.relative_error));
   text += fmt::format(" ({}, {}, {}, {})", statistics.isa, format_plural(statistics.lanes, "lane"),
@@ -146,19 +164,28 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
   print_note(text);
   if (!written.empty()) print_note(fmt::format("wrote {}", fmt::join(written, ", ")));
   if (!statistics.cancelled) return;
-  const double taken = samples / pixels;
+  const double per_pixel = samples / pixels;
+  const bool is_saved = !arguments.checkpoint.empty() && statistics.checkpoint_error.empty();
+  const std::string advice = is_saved ? "; the same command goes on" : "";
   if (!written.empty())
-    print_note(fmt::format("interrupted: the image holds {} of {} per pixel",
-                           taken < 1 ? fmt::format("{:.2g}", taken) : format_digits(taken),
-                           format_plural(info.samples_per_pixel, "sample")));
-  else if (statistics.samples == 0)
-    print_note("interrupted before the first sample: nothing was written");
+    print_note(fmt::format("interrupted: the image holds {} of {} per pixel{}",
+                           per_pixel < 1 ? fmt::format("{:.2g}", per_pixel) : format_digits(per_pixel),
+                           format_plural(sample_count(arguments, info), "sample"), advice));
+  else if (!statistics.has_image)
+    print_note(fmt::format("interrupted before the first {}: no image was written{}",
+                           statistics.samples == 0 ? "sample" : "image was complete", advice));
+  else
+    print_note("interrupted" + advice);
 }
 
 ExitStatus render(Arguments arguments) {
-  if (arguments.outputs.empty()) arguments.outputs = {default_output(arguments.scene.scene)};
+  if (!arguments.samples.empty() && arguments.checkpoint.empty())
+    throw Failure(ExitStatus::usage, "--samples needs --checkpoint FILE, which receives what 'norrsken merge' joins");
+  // A part of the samples is there to be merged, and only shown if that is asked for.
+  if (arguments.outputs.empty() && arguments.samples.empty())
+    arguments.outputs = {default_output(arguments.scene.scene)};
   arguments.outputs = without_repetitions(arguments.outputs);
-  const ExitStatus outputs = check_outputs(arguments.outputs);
+  const ExitStatus outputs = check_outputs(arguments.outputs, arguments.checkpoint);
   if (!arguments.quiet && outputs == ExitStatus::done) warn_about_useless_options(arguments);
 
   const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet, outputs);
@@ -167,7 +194,10 @@ ExitStatus render(Arguments arguments) {
   arguments.machine.apply_to(options);
   options.seed = arguments.seed;
   options.features = arguments.features;
-  const auto rendering = create_render(scene, options);
+  if (!arguments.samples.empty()) options.samples = parse_samples(arguments.samples);
+  options.checkpoint = arguments.checkpoint;
+  options.checkpoint_seconds = parse_duration(arguments.checkpoint_every).value();
+  const auto rendering = create_render(scene, options, !arguments.quiet);
   tell_start(arguments, info);
 
   const InterruptGuard guard(*rendering);
@@ -175,15 +205,18 @@ ExitStatus render(Arguments arguments) {
   meter.start("");
   const RenderStatistics statistics = rendering->run([&](const RenderProgress& progress) {
     meter.update(progress);
+    if (!progress.checkpoint_error.empty()) meter.warn(progress.checkpoint_error);
     if (interrupt_requested()) meter.announce("stopping; writing what there is (Ctrl-C again discards it)");
   });
   meter.finish();
 
   std::vector<std::string> written;
-  if (statistics.samples > 0) written = write_outputs(arguments, *rendering);
+  if (statistics.has_image) written = write_outputs(arguments, *rendering);
+  if (!statistics.checkpoint_error.empty()) print_error(statistics.checkpoint_error);
   if (!arguments.quiet) tell_dropped(statistics);
   tell_done(arguments, info, statistics, written);
-  if (statistics.samples > 0 && written.size() < arguments.outputs.size()) return ExitStatus::io_error;
+  const bool all_written = !statistics.has_image || written.size() == arguments.outputs.size();
+  if (!all_written || !statistics.checkpoint_error.empty()) return ExitStatus::io_error;
   return statistics.cancelled ? ExitStatus::interrupted : ExitStatus::done;
 }
 
@@ -204,6 +237,21 @@ void add_render_command(CLI::App& app, Action& action) {
       ->check(seed_number())
       ->type_name("S");
   arguments->machine.add_to(*command);
+  command
+      ->add_option("--checkpoint", arguments->checkpoint,
+                   "File that keeps the state of the rendering; the same command goes on from it, also with more --spp")
+      ->type_name("FILE");
+  command
+      ->add_option("--checkpoint-every", arguments->checkpoint_every,
+                   "How often it is written: 90s, 5m, 1h; default 60s")
+      ->check(duration())
+      ->type_name("TIME");
+  command
+      ->add_option(
+          "--samples", arguments->samples,
+          "Take the samples A to B-1 of each pixel alone and leave them in the checkpoint, for 'norrsken merge'")
+      ->check(sample_range())
+      ->type_name("A:B");
   command->add_flag("--layers", arguments->layers, "Add sample count, variance and error layers to EXR files");
   command->add_flag("--features", arguments->features,
                     "Add depth, normal, albedo and object id of the first hits too (implies --layers)");
@@ -213,12 +261,15 @@ void add_render_command(CLI::App& app, Action& action) {
       ->excludes(quiet);
   command->footer(
       "Ctrl-C, SIGTERM or SIGHUP stops the rendering, writes what there is and exits with status 77; a second one\n"
-      "discards it. The same scene, seed and options give the same image for any number of threads.\n\n"
+      "discards it (not the last checkpoint). The same scene, seed and options give the same image for any number of "
+      "threads.\n\n"
       "Examples:\n"
       "  norrsken render hexagon_room                              writes hexagon_room.exr\n"
       "  norrsken render room.xml -o room.png --spp 256 --exposure 0.5 --tone filmic\n"
       "  norrsken render hexagon_room -Dlight=point -Dshadow_rays=1 -o a.exr -o a.png --layers\n"
-      "  norrsken render room.xml --size 1920x1080 --json");
+      "  norrsken render room.xml --size 1920x1080 --json\n"
+      "  norrsken render room.xml --spp 4096 --checkpoint room.ckpt --checkpoint-every 10m\n"
+      "  norrsken render room.xml --samples 0:512 --checkpoint a.part");
   command->group("Commands");
   command->callback([&action, arguments] { action = [arguments] { return render(*arguments); }; });
 }

@@ -16,13 +16,16 @@ bool is_builtin(const std::string& name) {
   return std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& scene) { return scene.name == name; });
 }
 
-ExitStatus status_of(const std::string& scene, const Diagnostics& diagnostics) {
-  if (!is_builtin(scene) && unreadable_input_status(scene) == ExitStatus::no_input) return ExitStatus::no_input;
+bool any_error_names_a_file(const Diagnostics& diagnostics) {
   const auto& all = diagnostics.all();
-  const bool names_a_file = std::any_of(all.begin(), all.end(), [](const Diagnostic& diagnostic) {
+  return std::any_of(all.begin(), all.end(), [](const Diagnostic& diagnostic) {
     return diagnostic.severity == Diagnostic::Severity::error && !diagnostic.location.file.empty();
   });
-  return names_a_file ? ExitStatus::data_error : ExitStatus::usage;
+}
+
+ExitStatus status_of(const std::string& scene, const Diagnostics& diagnostics) {
+  if (!is_builtin(scene) && unreadable_input_status(scene) == ExitStatus::no_input) return ExitStatus::no_input;
+  return any_error_names_a_file(diagnostics) ? ExitStatus::data_error : ExitStatus::usage;
 }
 
 }  // namespace
@@ -42,23 +45,25 @@ Scene load_scene(const std::string& name, const LoadOptions& options, bool with_
   return *scene;
 }
 
-std::unique_ptr<Render> create_render(const Scene& scene, const RenderOptions& options) {
+std::unique_ptr<Render> create_render(const Scene& scene, const RenderOptions& options, bool with_warnings) {
   Diagnostics diagnostics;
   auto render = Render::create(scene, options, diagnostics);
-  print_diagnostics(diagnostics);
-  if (!render) throw Failure(ExitStatus::usage, "");
+  print_diagnostics(diagnostics, with_warnings);
+  if (!render) throw Failure(any_error_names_a_file(diagnostics) ? ExitStatus::data_error : ExitStatus::usage, "");
   return render;
 }
 
-ExitStatus check_outputs(const std::vector<std::string>& paths) {
+ExitStatus check_outputs(const std::vector<std::string>& images, const std::string& checkpoint) {
   ExitStatus result = ExitStatus::done;
-  for (const std::string& path : paths) {
-    const IoStatus status = check_writable(path);
-    if (status) continue;
+  const auto complain = [&](const IoStatus& status, ExitStatus meaning) {
+    if (status) return;
     print_error(status.error);
-    if (!check_image_name(path)) result = ExitStatus::usage;
-    if (result == ExitStatus::done) result = ExitStatus::cannot_create;
+    if (result == ExitStatus::done || meaning == ExitStatus::usage) result = meaning;
+  };
+  for (const std::string& path : images) {
+    complain(check_writable(path), check_image_name(path) ? ExitStatus::cannot_create : ExitStatus::usage);
   }
+  if (!checkpoint.empty()) complain(check_checkpoint_writable(checkpoint), ExitStatus::cannot_create);
   return result;
 }
 

@@ -21,12 +21,13 @@ ExitStatus unreadable_input_status(const std::string& path);
 Scene load_scene(const std::string& name, const LoadOptions& options, bool with_warnings = true,
                  ExitStatus so_far = ExitStatus::done);
 
-/// A Failure (usage) if the options do not fit this build, this processor or the scene.
-std::unique_ptr<Render> create_render(const Scene& scene, const RenderOptions& options);
+/// A Failure without text: usage if the options do not fit this build, this processor or the scene, data_error if the
+/// checkpoint does not.
+std::unique_ptr<Render> create_render(const Scene& scene, const RenderOptions& options, bool with_warnings = true);
 
-/// Tells on stderr what is wrong with each of these images to be written: `usage` if the extension of one is unknown,
-/// otherwise `cannot_create`, or `done`.
-ExitStatus check_outputs(const std::vector<std::string>& paths);
+/// Tells on stderr what is wrong with each of these images to be written, and with the checkpoint unless its name is
+/// empty: `usage` if the extension of an image is unknown, otherwise `cannot_create`, or `done`.
+ExitStatus check_outputs(const std::vector<std::string>& images, const std::string& checkpoint = {});
 
 /// A Failure (io_error) if the file could not be written.
 void write_image_or_fail(const std::string& path, const Image& image, const ToneMapping& tone);

@@ -16,20 +16,35 @@ namespace norrsken {
 /// Most worker threads that a rendering takes.
 inline constexpr int kMaxThreads = 1024;
 
+/// Samples first to end - 1 of every pixel.
+struct SampleRange {
+  std::uint32_t first = 0, end = 0;
+
+  std::uint32_t count() const { return end - first; }
+  friend bool operator==(const SampleRange&, const SampleRange&) = default;
+};
+
 struct RenderOptions {
   std::optional<int> samples_per_pixel = {};  ///< in place of the scene's
+  std::optional<SampleRange> samples = {};    ///< these alone
   std::uint64_t seed = 0;
   int threads = 0;                   ///< 0: one per hardware thread
   std::string isa = "auto";          ///< auto, scalar, sse4.2, avx2, avx512
   std::string accelerator = "auto";  ///< auto, planes, moller_trumbore, embree
   bool features = false;             ///< also render depth, normal, albedo and object id of the first hits
+  /// File that holds the state of the rendering, if not empty: Render::create takes up what it holds of the same
+  /// rendering (fewer samples of it, too), and `run` writes it, at its end as well. The one before stays as FILE.1.
+  std::string checkpoint = {};
+  double checkpoint_seconds = 60;  ///< from one writing to the next
 };
 
 struct RenderProgress {
   std::uint64_t samples_done = 0, samples_total = 0;  ///< camera samples
+  std::uint64_t samples_resumed = 0;                  ///< of those done: what the checkpoint held
   double elapsed_seconds = 0;                         ///< since run() began
   double samples_per_second = 0;
-  double relative_error = -1;  ///< estimated RMSE of the image over its mean; -1 while unknown
+  double relative_error = -1;         ///< estimated RMSE of the image over its mean; -1 while unknown
+  std::string checkpoint_error = {};  ///< why the checkpoint could not be written the last time; empty if it could
 };
 
 /// A sample whose radiance was NaN or infinite and was left out of its pixel's mean.
@@ -39,14 +54,17 @@ struct DroppedSample {
 };
 
 struct RenderStatistics {
-  std::uint64_t samples = 0;       ///< camera samples taken
-  std::uint64_t closest_rays = 0;  ///< rays asked for their closest hit
-  std::uint64_t shadow_rays = 0;   ///< rays asked whether anything is in between
+  std::uint64_t samples = 0;          ///< camera samples in the image
+  std::uint64_t samples_resumed = 0;  ///< of those: what the checkpoint held
+  std::uint64_t closest_rays = 0;     ///< rays asked for their closest hit, since `run` began
+  std::uint64_t shadow_rays = 0;      ///< rays asked whether anything is in between
   std::uint64_t dropped_samples = 0;
   std::vector<DroppedSample> dropped;  ///< the first few of them
   double seconds = 0;
   double relative_error = -1;
   bool cancelled = false;
+  bool has_image = false;        ///< there are samples, and the layers are complete
+  std::string checkpoint_error;  ///< as in RenderProgress
   std::string isa, accelerator;
   int threads = 0, lanes = 0;
 };
@@ -54,11 +72,12 @@ struct RenderStatistics {
 /// One rendering of one scene. `run` may be called once; `cancel` from any thread or a signal handler.
 class Render {
  public:
-  /// Errors (unknown instruction set, one that this processor lacks, no samples) go to `diagnostics`.
+  /// Errors (unknown instruction set, one that this processor lacks, no samples, the checkpoint of something else) go to
+  /// `diagnostics`.
   static std::unique_ptr<Render> create(const Scene& scene, const RenderOptions& options, Diagnostics& diagnostics);
   virtual ~Render() = default;
 
-  /// Renders until all samples are taken or `cancel` is called. `on_progress` is called from the calling thread
+  /// Renders until all samples are taken or `cancel` is called, and writes the checkpoint. `on_progress` is called from the calling thread
   /// about ten times a second and once at the end.
   virtual RenderStatistics run(const std::function<void(const RenderProgress&)>& on_progress = {}) = 0;
   virtual void cancel() noexcept = 0;
@@ -68,6 +87,9 @@ class Render {
   /// `depth.Z`, `normal.X/Y/Z`, `albedo.R/G/B`, `id`.
   virtual Image image(bool layers = false) const = 0;
 };
+
+/// Whether a checkpoint could be written there, asked before a long render.
+IoStatus check_checkpoint_writable(const std::string& path);
 
 /// The instruction sets that this build has and this processor can run, best first: "avx512", "avx2", ...
 std::vector<std::string> usable_isas();

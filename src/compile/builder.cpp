@@ -11,6 +11,7 @@
 #include "compile/plugins.h"
 #include "sampler/sampler_host.h"
 #include "scene/constant_spectrum.h"
+#include "tables/film_memory.h"
 
 namespace norrsken {
 namespace {
@@ -27,10 +28,10 @@ std::uint64_t bytes_of(const Container& container) {
 
 }  // namespace
 
-std::string film_memory_message(int width, int height, std::uint64_t memory) {
+std::string film_memory_message(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t memory) {
   constexpr double kGibibyte = 1 << 30;
   return fmt::format("a film of {} x {} pixels needs {:.1f} GiB, this machine has {:.1f} GiB", width, height,
-                     static_cast<double>(width) * height * kFilmBytes / kGibibyte,
+                     static_cast<double>(width) * height * static_cast<double>(bytes_per_pixel) / kGibibyte,
                      static_cast<double>(memory) / kGibibyte);
 }
 
@@ -244,9 +245,11 @@ FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options) {
   if (pixels > kMaxFilmPixels) {
     diagnostics_.error(place, fmt::format("a film of {} x {} has {} pixels", settings.width, settings.height, pixels),
                        fmt::format("up to {} pixels", kMaxFilmPixels));
-  } else if (const std::uint64_t memory = physical_memory(); pixels * kFilmBytes > memory) {
-    diagnostics_.error(place, film_memory_message(settings.width, settings.height, memory),
-                       fmt::format("up to {} pixels", memory / kFilmBytes));
+  } else if (const std::uint64_t memory = physical_memory(),
+             bytes = film_bytes_per_pixel(settings, scene_.layers, tables().integrator.from_lights);
+             pixels * bytes > memory) {
+    diagnostics_.error(place, film_memory_message(settings.width, settings.height, bytes, memory),
+                       fmt::format("up to {} pixels", memory / bytes));
   }
   std::string detail = fmt::format("{} x {}", settings.width, settings.height);
   if (settings.width != settings.full_width || settings.height != settings.full_height) {

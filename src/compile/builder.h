@@ -23,12 +23,10 @@ namespace norrsken {
 /// Bounds on what a scene may ask for.
 inline constexpr int kMaxFilmSide = 65536;
 inline constexpr std::uint64_t kMaxFilmPixels = std::uint64_t{1} << 28;
-/// Of a pixel while it is rendered: double-precision sums of three channels of four images, and a count.
-inline constexpr std::uint64_t kFilmBytes = 3 * 4 * 8 + 4;
 inline constexpr double kMaxEmission = 1e18;  ///< of radiance and intensity; its square must fit a float
 
-/// For a film that does not fit `memory` bytes.
-std::string film_memory_message(int width, int height, std::uint64_t memory);
+/// For a film of so many bytes per pixel that does not fit `memory` bytes.
+std::string film_memory_message(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t memory);
 
 /// A parameter that may be a texture; `value` is then a colour to describe it by.
 struct ColorParameter {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "color/srgb.h"
+#include "tables/film_memory.h"
 #include "tables/wave_types.h"
 
 namespace norrsken {
@@ -17,8 +18,9 @@ constexpr const char* kColors[3] = {"R", "G", "B"};
 
 std::uint32_t plane_count(SamplerKind sampler) { return sampler == SamplerKind::independent ? 6 : 3 * kReplicates; }
 
-/// How many of the first n samples belong to replicate r.
-std::uint32_t replicate_count(std::uint32_t n, std::uint32_t r) { return (n + kReplicates - 1 - r) / kReplicates; }
+std::size_t pixel_count(const FilmSettings& settings) {
+  return static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
+}
 
 }  // namespace
 
@@ -47,27 +49,53 @@ Film::Film(const FilmSettings& settings, SamplerKind sampler, SceneLayers layers
       width_(static_cast<std::uint32_t>(settings.width)),
       height_(static_cast<std::uint32_t>(settings.height)),
       sampler_(sampler),
-      layers_(std::move(layers)) {
-  const std::size_t pixels = static_cast<std::size_t>(width_) * height_;
-  sums_.resize(pixels * plane_count(sampler));
-  counts_.resize(pixels);
-  if (!layers_.moments.empty()) moments_.resize(3 * pixels);
-  for (const FeatureLayer& layer : layers_.features) feature_mask_ |= 1u << layer.feature;
-  if (settings.has_alpha()) feature_mask_ |= 1u << kFeatureCoverage;
-  features_.resize(pixels * static_cast<std::size_t>(std::popcount(feature_mask_)));
-}
+      layers_(std::move(layers)),
+      feature_mask_(feature_mask(settings, layers_)),
+      sums_(pixel_count(settings) * plane_count(sampler)),
+      moments_(layers_.moments.empty() ? 0 : 3 * pixel_count(settings)),
+      features_(pixel_count(settings) * static_cast<std::size_t>(std::popcount(feature_mask_))),
+      counts_(pixel_count(settings)) {}
 
 FilmView Film::view() {
   FilmView view;
-  view.sums = sums_.data();
+  view.sums = sums_.view();
   view.counts = counts_.data();
-  view.moments = moments_.empty() ? nullptr : moments_.data();
-  view.features = features_.empty() ? nullptr : features_.data();
+  view.moments = moments_.view();
+  view.features = features_.view();
   view.feature_mask = feature_mask_;
   view.width = width_;
   view.height = height_;
   view.weighted = settings_.filter.kind != FilterKind::box;
   return view;
+}
+
+std::vector<Film::State> Film::state() {
+  std::vector<State> state;
+  const auto add = [&](const char* name) {
+    return [&state, name](auto& array) { state.push_back({name, std::as_writable_bytes(std::span(array))}); };
+  };
+  add("counts")(counts_);
+  sums_.visit(add("sums"));
+  moments_.visit(add("moments"));
+  features_.visit(add("features"));
+  splats_.visit_state(add("splats"));
+  std::erase_if(state, [](const State& part) { return part.bytes.empty(); });
+  return state;
+}
+
+void Film::clear() {
+  for (const State& part : state()) std::ranges::fill(part.bytes, std::byte{0});
+}
+
+void Film::add(const Film& other) {
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    counts_[i] = ((counts_[i] & ~kSomeDropped) + (other.counts_[i] & ~kSomeDropped)) |
+                 ((counts_[i] | other.counts_[i]) & kSomeDropped);
+  }
+  sums_.add(other.sums_);
+  moments_.add(other.moments_);
+  features_.add(other.features_);
+  splats_.add(other.splats_);
 }
 
 PixelEstimate Film::estimate(std::uint64_t pixel, int channel) const {
@@ -94,7 +122,8 @@ PixelEstimate Film::estimate_samples(std::uint64_t pixel, int channel) const {
   }
 
   double sums[kReplicates], counts[kReplicates];
-  for (std::uint32_t r = 0; r < kReplicates; ++r) sums[r] = sum(3 * r + c), counts[r] = replicate_count(n, r);
+  for (std::uint32_t r = 0; r < kReplicates; ++r)
+    sums[r] = sum(3 * r + c), counts[r] = samples_.count_of_replicate(n, r);
   PixelEstimate estimate = estimate_from_replicates(sums, counts);
   // Which replicate lost how many is not known any more.
   if ((counts_[pixel] & kSomeDropped) != 0) estimate.known = false;

@@ -1,10 +1,15 @@
 // The film on the host: the memory of the sums, and what they say about the image and its error.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "base/aligned.h"
+#include "film/exact_planes.h"
+#include "film/sample_set.h"
 #include "film/splats.h"
 #include "norrsken/image.h"
 #include "tables/film_view.h"
@@ -44,6 +49,20 @@ class Film {
   void add_splats(Splats splats) { splats_ = std::move(splats); }
   Splats& splats() { return splats_; }
 
+  /// Which samples are taken; a pixel that has n of them has the first n.
+  void set_samples(SampleSet samples) { samples_ = std::move(samples); }
+
+  /// All that samples leave on the film, by name: what a checkpoint holds.
+  struct State {
+    const char* name;
+    std::span<std::byte> bytes;
+  };
+  std::vector<State> state();
+  /// As if nothing had been rendered.
+  void clear();
+  /// Takes in what a film of the same settings holds of other samples; exact (see base/exact_sum.h).
+  void add(const Film& other);
+
   PixelEstimate estimate(std::uint64_t pixel, int channel) const;
   FilmError error(const FilmRegion& region) const;
 
@@ -65,11 +84,9 @@ class Film {
   SamplerKind sampler_;
   SceneLayers layers_;
   std::uint32_t feature_mask_ = 0;
-  // Tiles are a multiple of a cache line wide: aligned, two threads on neighbouring tiles never write to one line.
-  AlignedVector<double> sums_;
+  SampleSet samples_;
+  ExactPlanes sums_, moments_, features_;
   AlignedVector<std::uint32_t> counts_;
-  AlignedVector<double> moments_;
-  AlignedVector<double> features_;
   Splats splats_;
 };
 

@@ -101,8 +101,8 @@ TEST(Film, LayersOnRequest) {
   for (const double x : {1.0, 3.0}) add(film, SamplerKind::independent, 0, x);
   EXPECT_EQ(film.image(false, 0).channels.size(), 3u);
   EXPECT_EQ(film.view().feature_mask, 0xffu);
-  film.view().features[0] = 12.0;  // the sum of four depths
-  film.view().features[7] = 5.0;
+  film.view().features.high[0] = 12.0;  // the sum of four depths
+  film.view().features.high[7] = 5.0;
   const Image image = film.image(true, 4);
   EXPECT_EQ(image.find("samples")->values[0], 2.0f);
   EXPECT_NEAR(image.find("variance.G")->values[0], 1.0f, 1e-6f);

@@ -7,9 +7,9 @@
 namespace norrsken {
 
 Splats::Splats(const FilmSettings& settings, std::span<const float> filter)
-    : settings_(settings), filter_(filter.begin(), filter.end()) {
-  sums_.resize(static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height) * kReplicates * 3);
-}
+    : settings_(settings),
+      filter_(filter.begin(), filter.end()),
+      sums_(static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height) * kReplicates * 3) {}
 
 /// A pixel's value is the integral of the image times the filter around the pixel's centre, over the filter's integral:
 /// over all of it, or over what of it is on the film.
@@ -65,8 +65,10 @@ void Splats::add(const WaveJob& job, const Queue& splats, DroppedSamples& droppe
       for (std::size_t x = 0; x < columns_.weights.size(); ++x) {
         const double weight = rows_.weights[y] * columns_.weights[x];
         const std::size_t pixel = (rows_.first + y) * width + columns_.first + x;
-        double* sums = &sums_[(pixel * kReplicates + sample % kReplicates) * 3];
-        for (int c = 0; c < 3; ++c) sums[c] += weight * static_cast<double>(color[c]);
+        const std::size_t first = (pixel * kReplicates + sample % kReplicates) * 3;
+        for (std::size_t c = 0; c < 3; ++c) {
+          sums_.add(first + c, rounded_to_24_bits(weight * static_cast<double>(color[c])));
+        }
       }
     }
   }
@@ -76,6 +78,11 @@ void Splats::count_paths(const WaveJob& job) {
   for (std::uint32_t s = 0; s < job.sample_count; ++s) {
     paths_[(job.first_sample + s) % kReplicates] += job.pixel_count();
   }
+}
+
+void Splats::add(const Splats& other) {
+  sums_.add(other.sums_);
+  for (std::size_t r = 0; r < kReplicates; ++r) paths_[r] += other.paths_[r];
 }
 
 PixelEstimate Splats::estimate(std::uint64_t pixel, int channel) const {

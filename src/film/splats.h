@@ -2,19 +2,21 @@
 // pixel, so a pixel's value is the sum of what landed there over the number of all paths, whoever's they were.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "base/aligned.h"
+#include "film/exact_planes.h"
 #include "film/pixel_estimate.h"
 #include "tables/film_view.h"
 #include "tables/wave_types.h"
 
 namespace norrsken {
 
-/// Double-precision sums per pixel and replicate. Sample s of every path belongs to replicate s % kReplicates, also where
-/// samples are independent: a path that lands elsewhere counts for a pixel's variance too.
+/// Sums per pixel and replicate. Sample s of every path belongs to replicate s % kReplicates, also where samples are
+/// independent: a path that lands elsewhere counts for a pixel's variance too. Which paths come first depends on how the
+/// work is cut; the sums do not, being exact.
 class Splats {
  public:
   /// None, without memory.
@@ -32,6 +34,16 @@ class Splats {
 
   PixelEstimate estimate(std::uint64_t pixel, int channel) const;
 
+  /// Calls visit(array) for the arrays of sums and numbers of paths.
+  template <class Visit>
+  void visit_state(const Visit& visit) {
+    if (!exist()) return;
+    sums_.visit(visit);
+    visit(paths_);
+  }
+  /// Takes in what other paths left.
+  void add(const Splats& other);
+
  private:
   /// The pixels along one axis that a splat counts for, and how much.
   struct Footprint {
@@ -43,8 +55,8 @@ class Splats {
   FilmSettings settings_;
   std::vector<float> filter_;
   Footprint columns_, rows_;
-  AlignedVector<double> sums_;  ///< R, G, B of one replicate after the other, pixel by pixel
-  std::uint64_t paths_[kReplicates] = {};
+  ExactPlanes sums_;  ///< R, G, B of one replicate after the other, pixel by pixel
+  std::array<std::uint64_t, kReplicates> paths_{};
 };
 
 }  // namespace norrsken

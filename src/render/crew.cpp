@@ -6,8 +6,6 @@
 #include <system_error>
 #include <thread>
 
-#include "render/wave_arena.h"
-
 namespace norrsken {
 namespace {
 
@@ -74,67 +72,104 @@ int crew_size(int asked) {
   return static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
 }
 
-/// A tile's samples go to the film block by block. Waves are handed out in order, so the wave that a tile waits for is
+bool Work::features_done() const {
+  return std::ranges::all_of(feature_progress, [&](std::uint32_t done) { return done == feature_samples.count(); });
+}
+
+bool Work::done() const {
+  return features_done() && std::ranges::all_of(progress, [&](std::uint32_t done) { return done == samples.count(); });
+}
+
+std::uint64_t Work::samples_done() const {
+  std::uint64_t done = 0;
+  for (std::size_t tile = 0; tile < progress.size(); ++tile) done += progress[tile] * grid.pixels_of(tile);
+  return done;
+}
+
+/// An area's samples go to the film block by block. Waves are handed out in order, so the wave that an area waits for is
 /// always under way, and waiting for it cannot lock up. Paths from the lights land anywhere: for them the film is one
-/// tile, and every wave a block of it.
-struct Crew::Tile {
-  std::mutex mutex;  // the film's pixels of this tile, and what follows
+/// area, and every wave a block of it.
+struct Crew::Area {
+  std::mutex mutex;  // the film's pixels of this area, its tiles' progress, and `next_block`
   std::condition_variable turn;
   std::uint64_t next_block = 0;
+  std::uint64_t blocks_before = 0;  ///< those on the film when the pass began
   FilmRegion region;
 };
 
-Crew::Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, int threads,
+Crew::Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, Work& work, int threads,
            const std::atomic<bool>& cancelled)
     : scene_(scene),
       feature_scene_(scene),
       kernels_(kernels),
       film_(film),
       film_view_(film.view()),
+      work_(work),
       threads_(threads),
-      cancelled_(cancelled) {
+      cancelled_(cancelled),
+      samples_done_(work.samples_done()) {
   feature_scene_.features = film_view_.feature_mask;
   feature_scene_.needs_uv = scene.needs_uv || (film_view_.feature_mask & kUvFeatures) != 0;
 }
 
 Crew::~Crew() = default;
 
-void Crew::run_features(std::uint32_t samples, const std::function<void()>& tick) {
-  run_pass(Pass::features, WorkPlan(film_.width(), film_.height(), samples, kWaveSlots), tick);
+TileGrid Crew::grid(const SceneView& scene, std::uint32_t width, std::uint32_t height) {
+  return TileGrid(width, height, slots_per_wave(scene.integrator));
 }
 
-void Crew::run(std::uint64_t samples, const std::function<void()>& tick) {
-  const std::uint32_t slots = slots_per_wave(scene_.integrator);
+void Crew::run_features(const Tick& tick) {
+  for (const WorkPlan& plan : plan_passes(work_.grid, work_.feature_samples)) {
+    if (!run_pass(Pass::features, plan, tick)) return;
+  }
+}
+
+void Crew::run(const Tick& tick) {
   const Pass pass = scene_.integrator.from_lights ? Pass::particles : Pass::radiance;
-  run_pass(pass, WorkPlan(film_.width(), film_.height(), samples, slots), tick);
+  for (const WorkPlan& plan : plan_passes(work_.grid, work_.samples)) {
+    if (!run_pass(pass, plan, tick)) return;
+  }
 }
 
-void Crew::run_pass(Pass pass, const WorkPlan& plan, const std::function<void()>& tick) {
-  tile_count_ = pass == Pass::particles ? 1 : plan.tile_count();
-  tiles_ = std::make_unique<Tile[]>(tile_count_);
-  for (std::uint64_t i = 0; i < tile_count_; ++i) {
+void Crew::start_areas(Pass pass, const WorkPlan& plan) {
+  const TileProgress& progress = pass == Pass::features ? work_.feature_progress : work_.progress;
+  area_count_ = pass == Pass::particles ? 1 : plan.area_count();
+  areas_ = std::make_unique<Area[]>(area_count_);
+  std::uint64_t least = plan.wave_count() / plan.area_count();
+  for (std::uint64_t i = 0; i < plan.area_count(); ++i) {
+    const std::uint64_t blocks = plan.blocks_done(plan.progress_of(i, progress));
+    least = std::min(least, blocks);
+    if (pass == Pass::particles) continue;
     const WaveJob job = plan.wave(i);
-    tiles_[i].region = {job.x0, job.y0, job.width, job.height};
+    areas_[i].region = {job.x0, job.y0, job.width, job.height};
+    areas_[i].next_block = areas_[i].blocks_before = blocks;
   }
-  if (pass == Pass::particles) tiles_[0].region = {0, 0, film_.width(), film_.height()};
+  first_wave_ = least * plan.area_count();
+  if (pass != Pass::particles) return;
+  areas_[0].region = {0, 0, film_.width(), film_.height()};
+  areas_[0].next_block = first_wave_;
+}
 
-  const auto wanted =
-      static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(threads_), plan.wave_count()));
+bool Crew::run_pass(Pass pass, const WorkPlan& plan, const Tick& tick) {
+  start_areas(pass, plan);
+  const std::uint64_t waves = plan.wave_count() - first_wave_;
+  if (waves == 0) return true;
+  const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(threads_), waves));
   // All memory before the first thread: what runs in the threads cannot fail.
-  std::vector<WaveArena> arenas;
-  arenas.reserve(wanted);
-  for (std::size_t i = 0; i < wanted; ++i) arenas.emplace_back(kWaveSlots, pass == Pass::particles);
-  std::atomic<std::uint64_t> next_wave{0};
+  arenas_.reserve(wanted);
+  while (arenas_.size() < wanted) arenas_.emplace_back(kWaveSlots, scene_.integrator.from_lights);
+  std::atomic<std::uint64_t> next_wave{first_wave_};
   Gathering gathering(stop_);
-  for (WaveArena& arena : arenas) {
-    if (!gathering.start([this, pass, &plan, &next_wave, &arena] { work(pass, plan, next_wave, arena.memory()); }))
-      break;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    WaveMemory& memory = arenas_[i].memory();
+    if (!gathering.start([this, pass, &plan, &next_wave, &memory] { work(pass, plan, next_wave, memory); })) break;
   }
-  threads_used_ = gathering.size();
-  if (threads_used_ == 0) throw std::runtime_error("the system starts no more threads");
-  while (!gathering.wait_for(milliseconds(100))) {
-    if (tick) tick();
+  if (gathering.size() == 0) throw std::runtime_error("the system starts no more threads");
+  threads_used_ = std::max(threads_used_, gathering.size());
+  while (!gathering.wait_for(tick.interval)) {
+    if (!tick.call()) return false;  // the gathering stops
   }
+  return !cancelled_.load(std::memory_order_relaxed);
 }
 
 void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave, WaveMemory& memory) {
@@ -142,72 +177,83 @@ void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& nex
   while (!cancelled_.load(std::memory_order_relaxed) && !stop_.load(std::memory_order_relaxed)) {
     const std::uint64_t wave = next_wave.fetch_add(1, std::memory_order_relaxed);
     if (wave >= plan.wave_count()) break;
+    const std::uint64_t area = plan.area_of(wave);
+    WaveJob job = plan.wave(wave);
     if (pass == Pass::particles) {
-      trace_particles(plan, wave, memory, counts);
+      trace_particles(plan, wave, job, memory, counts);
       continue;
     }
-    const WaveJob job = plan.wave(wave);
+    const Area& on_film = areas_[area];
+    if (plan.block_of(wave) < on_film.blocks_before) continue;
+    if (plan.block_of(wave) == on_film.blocks_before) {
+      // Only this area's first wave changes its progress, and this is it.
+      job =
+          plan.remaining(job, plan.progress_of(area, pass == Pass::radiance ? work_.progress : work_.feature_progress));
+    }
     if (pass == Pass::radiance) {
       kernels_.trace_wave(scene_, job, memory, counts);
     } else {
       kernels_.trace_features(feature_scene_, job, memory, counts);
     }
-    add_to_film(pass, plan, wave, memory);
+    add_to_film(pass, plan, wave, job, memory);
   }
   const std::lock_guard lock(mutex_);
   counts_.closest_rays += counts.closest_rays;
   counts_.shadow_rays += counts.shadow_rays;
 }
 
-void Crew::add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, WaveMemory& memory) {
-  const WaveJob job = plan.wave(wave);
-  Tile& tile = tiles_[plan.tile_of(wave)];
+void Crew::add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, const WaveJob& job, WaveMemory& memory) {
+  Area& area = areas_[plan.area_of(wave)];
   DroppedSamples dropped;
   {
-    std::unique_lock lock(tile.mutex);
-    tile.turn.wait(lock, [&] { return tile.next_block == plan.block_of(wave); });
+    std::unique_lock lock(area.mutex);
+    area.turn.wait(lock, [&] { return area.next_block == plan.block_of(wave); });
     if (pass == Pass::radiance) {
       kernels_.accumulate_film(job, scene_.sampler.kind, memory.slots, film_view_, dropped);
     } else {
       kernels_.accumulate_features(job, memory.slots, film_view_);
     }
-    ++tile.next_block;
-    tile.turn.notify_all();
+    plan.set_progress_of(plan.area_of(wave), plan.end_of(job),
+                         pass == Pass::radiance ? work_.progress : work_.feature_progress);
+    ++area.next_block;
+    area.turn.notify_all();
   }
-  if (pass == Pass::features) return;
-  samples_done_.fetch_add(std::uint64_t{job.pixel_count()} * job.sample_count, std::memory_order_relaxed);
-  keep_dropped(dropped);
+  if (pass == Pass::radiance) count_samples(job, dropped);
 }
 
-void Crew::trace_particles(const WorkPlan& plan, std::uint64_t wave, WaveMemory& memory, WaveCounts& counts) {
-  const WaveJob job = plan.wave(wave);
-  Tile& film = tiles_[0];
+void Crew::trace_particles(const WorkPlan& plan, std::uint64_t wave, const WaveJob& whole, WaveMemory& memory,
+                           WaveCounts& counts) {
+  Area& film = areas_[0];
+  // An area's waves may be under way side by side, but only its first may have a part of its samples on the film.
+  WaveJob job = whole;
+  {
+    const std::lock_guard lock(film.mutex);
+    job = plan.remaining(whole, plan.progress_of(plan.area_of(wave), work_.progress));
+  }
   DroppedSamples dropped;
   for (std::uint32_t hit_number = 1; hit_number != 0;) {
-    hit_number = kernels_.trace_particles(scene_, job, hit_number, memory, counts);
+    const bool is_done = job.sample_count == 0;
+    hit_number = is_done ? 0 : kernels_.trace_particles(scene_, job, hit_number, memory, counts);
     std::unique_lock lock(film.mutex);
     film.turn.wait(lock, [&] { return film.next_block == wave; });
-    film_.splats().add(job, memory.splats, dropped);
+    if (!is_done) film_.splats().add(job, memory.splats, dropped);
     if (hit_number != 0) continue;
-    kernels_.accumulate_film(job, scene_.sampler.kind, memory.slots, film_view_, dropped);
-    film_.splats().count_paths(job);
+    if (!is_done) {
+      kernels_.accumulate_film(job, scene_.sampler.kind, memory.slots, film_view_, dropped);
+      film_.splats().count_paths(job);
+      plan.set_progress_of(plan.area_of(wave), plan.end_of(job), work_.progress);
+    }
     ++film.next_block;
     film.turn.notify_all();
   }
-  samples_done_.fetch_add(std::uint64_t{job.pixel_count()} * job.sample_count, std::memory_order_relaxed);
-  keep_dropped(dropped);
+  count_samples(job, dropped);
 }
 
-void Crew::keep_dropped(const DroppedSamples& dropped) {
+void Crew::count_samples(const WaveJob& job, const DroppedSamples& dropped) {
+  samples_done_.fetch_add(std::uint64_t{job.pixel_count()} * job.sample_count, std::memory_order_relaxed);
   if (dropped.count == 0) return;
   const std::lock_guard lock(mutex_);
-  for (std::uint64_t i = 0; i < dropped.count && i < DroppedSamples::kKept; ++i) {
-    const std::uint64_t at = dropped_.count + i;
-    if (at >= DroppedSamples::kKept) break;
-    dropped_.pixel[at] = dropped.pixel[i];
-    dropped_.sample[at] = dropped.sample[i];
-  }
-  dropped_.count += dropped.count;
+  work_.dropped.add(dropped);
 }
 
 double Crew::relative_error() {
@@ -220,9 +266,9 @@ double Crew::relative_error() {
   last_look_ = now;
   last_error_samples_ = samples;
   FilmError total;
-  for (std::uint64_t i = 0; i < tile_count_; ++i) {
-    const std::lock_guard lock(tiles_[i].mutex);
-    total += film_.error(tiles_[i].region);
+  for (std::uint64_t i = 0; i < area_count_; ++i) {
+    const std::lock_guard lock(areas_[i].mutex);
+    total += film_.error(areas_[i].region);
   }
   return last_error_ = total.relative();
 }
@@ -234,10 +280,11 @@ RenderStatistics Crew::statistics() const {
   s.threads = threads_used_;
   s.closest_rays = counts_.closest_rays;
   s.shadow_rays = counts_.shadow_rays;
-  s.dropped_samples = dropped_.count;
-  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(dropped_.count, DroppedSamples::kKept); ++i) {
-    s.dropped.push_back({static_cast<int>(dropped_.pixel[i] % film_.width()),
-                         static_cast<int>(dropped_.pixel[i] / film_.width()), dropped_.sample[i]});
+  const DroppedSamples& dropped = work_.dropped;
+  s.dropped_samples = dropped.count;
+  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(dropped.count, DroppedSamples::kKept); ++i) {
+    s.dropped.push_back({static_cast<int>(dropped.pixel[i] % film_.width()),
+                         static_cast<int>(dropped.pixel[i] / film_.width()), dropped.sample[i]});
   }
   return s;
 }

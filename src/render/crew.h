@@ -13,6 +13,7 @@
 #include "film/film.h"
 #include "isa/entry.h"
 #include "norrsken/render.h"
+#include "render/wave_arena.h"
 #include "render/work_plan.h"
 
 namespace norrsken {
@@ -20,50 +21,78 @@ namespace norrsken {
 /// Threads to use: the number asked for, or one per hardware thread for 0.
 int crew_size(int asked);
 
+/// What the workers are to render, and how far they have come.
+struct Work {
+  TileGrid grid;
+  SampleRange samples, feature_samples;  ///< features of none if there are no features
+  TileProgress progress, feature_progress;
+  DroppedSamples dropped;
+
+  bool features_done() const;
+  bool done() const;
+  /// Camera samples on the film.
+  std::uint64_t samples_done() const;
+};
+
 class Crew {
  public:
+  struct Tick {
+    std::chrono::milliseconds interval;
+    std::function<bool()> call;
+  };
+
   /// Borrows everything. Setting `cancelled` makes `run` return when the waves under way are on the film.
-  Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, int threads, const std::atomic<bool>& cancelled);
+  Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, Work& work, int threads,
+       const std::atomic<bool>& cancelled);
   ~Crew();
 
-  /// Renders the feature layers with so many samples per pixel.
-  void run_features(std::uint32_t samples, const std::function<void()>& tick);
+  /// The waves that scenes are cut into.
+  static TileGrid grid(const SceneView& scene, std::uint32_t width, std::uint32_t height);
 
-  /// Renders so many samples per pixel; calls `tick` from the calling thread about ten times a second.
-  void run(std::uint64_t samples, const std::function<void()>& tick);
+  /// Go on with the work: the features, or the image. They call `tick` from the calling thread once in each
+  /// interval, and return with what is on the film when the work is done, when it is cancelled, or when `tick` returns
+  /// false; then they may be called again.
+  void run_features(const Tick& tick);
+  void run(const Tick& tick);
 
   std::uint64_t samples_done() const { return samples_done_.load(std::memory_order_relaxed); }
   /// Of what is on the film, looked at about once a second; -1 while unknown.
   double relative_error();
+  /// Rays are those of this crew, samples those on the film.
   RenderStatistics statistics() const;
 
  private:
-  struct Tile;
+  struct Area;
   enum class Pass { radiance, features, particles };
 
-  void run_pass(Pass pass, const WorkPlan& plan, const std::function<void()>& tick);
+  /// False if it was stopped.
+  bool run_pass(Pass pass, const WorkPlan& plan, const Tick& tick);
+  void start_areas(Pass pass, const WorkPlan& plan);
   void work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave, WaveMemory& memory);
-  void add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, WaveMemory& memory);
-  void trace_particles(const WorkPlan& plan, std::uint64_t wave, WaveMemory& memory, WaveCounts& counts);
-  void keep_dropped(const DroppedSamples& dropped);
+  void add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, const WaveJob& job, WaveMemory& memory);
+  void trace_particles(const WorkPlan& plan, std::uint64_t wave, const WaveJob& job, WaveMemory& memory,
+                       WaveCounts& counts);
+  void count_samples(const WaveJob& job, const DroppedSamples& dropped);
 
   const SceneView& scene_;
   SceneView feature_scene_;  ///< the same, with what features need
   const KernelEntry& kernels_;
   Film& film_;
   FilmView film_view_;
+  Work& work_;
   int threads_;
   int threads_used_ = 0;
   const std::atomic<bool>& cancelled_;
-  std::atomic<bool> stop_{false};  ///< set while leaving `run` by an exception
+  std::atomic<bool> stop_{false};  ///< set while leaving a pass before its end
 
-  std::unique_ptr<Tile[]> tiles_;
-  std::uint64_t tile_count_ = 0;
+  std::vector<WaveArena> arenas_;
+  std::unique_ptr<Area[]> areas_;
+  std::uint64_t area_count_ = 0;
+  std::uint64_t first_wave_ = 0;  ///< of the pass; those before are on the film
   std::atomic<std::uint64_t> samples_done_{0};
 
   mutable std::mutex mutex_;  // guards what follows
   WaveCounts counts_;
-  DroppedSamples dropped_;
 
   std::chrono::steady_clock::time_point last_look_{};
   double last_error_ = -1;

@@ -1,39 +1,130 @@
 #include "render/work_plan.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace norrsken {
 namespace {
 
-constexpr std::uint64_t kSamplesPerWave = 16;
+constexpr std::uint32_t kSamplesPerWave = 16;
 
-std::uint32_t divide_up(std::uint64_t a, std::uint64_t b) { return static_cast<std::uint32_t>((a + b - 1) / b); }
+std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return a / b + (a % b != 0 ? 1 : 0); }
 
 }  // namespace
 
-WorkPlan::WorkPlan(std::uint32_t width, std::uint32_t height, std::uint64_t samples, std::uint32_t slots_per_wave)
-    : width_(width), height_(height), samples_(samples) {
-  block_ = static_cast<std::uint32_t>(
-      std::min({samples, kSamplesPerWave, std::uint64_t{std::max(slots_per_wave / kMaxLanes, 1u)}}));
-  // Tiles as wide as a register or two, so that lanes are neighbours, and as high as the slots allow.
-  const std::uint32_t pixels = std::max(kMaxLanes, slots_per_wave / std::max(block_, 1u) / kMaxLanes * kMaxLanes);
-  tile_width_ = std::min(width, pixels >= 64 * kMaxLanes ? 2 * kMaxLanes : kMaxLanes);
-  tile_height_ = std::clamp(pixels / tile_width_, 1u, height);
-  tiles_x_ = divide_up(width, tile_width_);
-  tiles_ = std::uint64_t{tiles_x_} * divide_up(height, tile_height_);
-  blocks_ = divide_up(samples, std::max(block_, 1u));
+TileGrid::TileGrid(std::uint32_t image_width, std::uint32_t image_height, std::uint32_t slots_per_wave)
+    : width(image_width),
+      height(image_height),
+      slots(std::max(slots_per_wave, kMaxLanes)),
+      longest_block(std::min(kSamplesPerWave, slots / kMaxLanes)) {
+  // As wide as a register, so that lanes are neighbours, and as high as the slots allow.
+  const std::uint32_t pixels = slots / longest_block / kMaxLanes * kMaxLanes;
+  tile_width = std::min(width, kMaxLanes);
+  tile_height = std::clamp(pixels / tile_width, 1u, height);
+  columns = divide_up(width, tile_width);
+  rows = divide_up(height, tile_height);
+}
+
+std::uint64_t TileGrid::pixels_of(std::uint64_t tile) const {
+  const auto x = static_cast<std::uint32_t>(tile % columns) * tile_width;
+  const auto y = static_cast<std::uint32_t>(tile / columns) * tile_height;
+  return std::uint64_t{std::min(tile_width, width - x)} * std::min(tile_height, height - y);
+}
+
+WorkPlan::WorkPlan(const TileGrid& grid, SampleRange numbers, std::uint32_t origin)
+    : grid_(grid), numbers_(numbers), origin_(origin) {
+  block_ = std::clamp(numbers.count(), 1u, grid.longest_block);
+  // Short blocks take several tiles. A power of two of them, so that the areas of other passes lie within each other.
+  const WaveJob tile{.width = grid.tile_width, .height = grid.tile_height};
+  const std::uint32_t tiles = std::bit_floor(std::max(grid.slots / (tile.pixel_stride() * block_), 1u));
+  // Waves are numbered in 64 bits, a wave's slots in few: wide areas are two registers wide.
+  constexpr std::uint32_t kManyTiles = 16;
+  area_columns_ = tiles >= kManyTiles && grid.columns > 1 ? 2 : 1;
+  area_rows_ = tiles / area_columns_;
+  areas_x_ = divide_up(grid.columns, area_columns_);
+  areas_ = std::uint64_t{areas_x_} * divide_up(grid.rows, area_rows_);
+  blocks_ = divide_up(numbers.count(), block_);
 }
 
 WaveJob WorkPlan::wave(std::uint64_t index) const {
-  const std::uint64_t tile = tile_of(index), first = block_of(index) * block_;
+  const std::uint64_t area = area_of(index);
+  const std::uint32_t width = area_columns_ * grid_.tile_width, height = area_rows_ * grid_.tile_height;
+  const auto first = static_cast<std::uint32_t>(block_of(index) * block_);
   WaveJob job;
-  job.x0 = static_cast<std::uint32_t>(tile % tiles_x_) * tile_width_;
-  job.y0 = static_cast<std::uint32_t>(tile / tiles_x_) * tile_height_;
-  job.width = std::min(tile_width_, width_ - job.x0);
-  job.height = std::min(tile_height_, height_ - job.y0);
-  job.first_sample = static_cast<std::uint32_t>(first);
-  job.sample_count = static_cast<std::uint32_t>(std::min<std::uint64_t>(block_, samples_ - first));
+  job.x0 = static_cast<std::uint32_t>(area % areas_x_) * width;
+  job.y0 = static_cast<std::uint32_t>(area / areas_x_) * height;
+  job.width = std::min(width, grid_.width - job.x0);
+  job.height = std::min(height, grid_.height - job.y0);
+  job.first_sample = origin_ + numbers_.first + first;
+  job.sample_count = std::min(block_, numbers_.count() - first);
   return job;
+}
+
+template <class Visit>
+void WorkPlan::for_each_tile(std::uint64_t area, const Visit& visit) const {
+  const auto x0 = static_cast<std::uint32_t>(area % areas_x_) * area_columns_;
+  const auto y0 = static_cast<std::uint32_t>(area / areas_x_) * area_rows_;
+  for (std::uint32_t y = y0; y < std::min(y0 + area_rows_, grid_.rows); ++y) {
+    for (std::uint32_t x = x0; x < std::min(x0 + area_columns_, grid_.columns); ++x) {
+      visit(std::size_t{y} * grid_.columns + x);
+    }
+  }
+}
+
+std::uint32_t WorkPlan::progress_of(std::uint64_t area, const TileProgress& progress) const {
+  std::uint32_t least = numbers_.end;
+  for_each_tile(area, [&](std::size_t tile) { least = std::min(least, progress[tile]); });
+  return least;
+}
+
+bool WorkPlan::is_even(std::uint64_t area, const TileProgress& progress) const {
+  const std::uint32_t least = std::max(progress_of(area, progress), numbers_.first);
+  bool even = true;
+  for_each_tile(area, [&](std::size_t tile) {
+    even = even && std::clamp(progress[tile], numbers_.first, numbers_.end) == least;
+  });
+  return even;
+}
+
+void WorkPlan::set_progress_of(std::uint64_t area, std::uint32_t done, TileProgress& progress) const {
+  for_each_tile(area, [&](std::size_t tile) { progress[tile] = done; });
+}
+
+std::uint64_t WorkPlan::blocks_done(std::uint32_t done) const {
+  if (done <= numbers_.first) return 0;
+  return done >= numbers_.end ? blocks_ : (done - numbers_.first) / block_;
+}
+
+WaveJob WorkPlan::remaining(WaveJob job, std::uint32_t done) const {
+  const std::uint32_t end = job.first_sample + job.sample_count;
+  job.first_sample = std::clamp(origin_ + done, job.first_sample, end);
+  job.sample_count = end - job.first_sample;
+  return job;
+}
+
+std::vector<WorkPlan> plan_passes(const TileGrid& grid, SampleRange samples) {
+  std::vector<WorkPlan> passes;
+  std::uint32_t first = 0;
+  for (const std::uint32_t end : {1u, grid.longest_block, samples.count()}) {
+    const SampleRange numbers{first, std::min(end, samples.count())};
+    if (numbers.end <= numbers.first) continue;
+    passes.emplace_back(grid, numbers, samples.first);
+    first = numbers.end;
+  }
+  return passes;
+}
+
+bool is_possible(const TileGrid& grid, SampleRange samples, const TileProgress& progress) {
+  if (progress.size() != grid.tile_count()) return false;
+  for (const std::uint32_t done : progress) {
+    if (done > samples.count()) return false;
+  }
+  for (const WorkPlan& pass : plan_passes(grid, samples)) {
+    for (std::uint64_t area = 0; area < pass.area_count(); ++area) {
+      if (!pass.is_even(area, progress)) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace norrsken

@@ -12,6 +12,14 @@ struct DroppedSamples {
   std::uint32_t pixel[kKept] = {};
   std::uint32_t sample[kKept] = {};
   std::uint64_t count = 0;
+
+  void add(const DroppedSamples& other) {
+    for (std::uint64_t i = 0; i < other.count && i < kKept && count + i < kKept; ++i) {
+      pixel[count + i] = other.pixel[i];
+      sample[count + i] = other.sample[i];
+    }
+    count += other.count;
+  }
 };
 
 /// In a pixel's count: a sample was left out, so the count does not tell any more which replicates hold how many.
@@ -55,22 +63,28 @@ inline constexpr std::uint32_t kDiscreteFeatures = 1u << kFeatureObject | 1u << 
 /// Those that need texture coordinates or tangents.
 inline constexpr std::uint32_t kUvFeatures = (1u << kFeatureU | 1u << kFeatureV) | 63u << kFeatureDpDuX;
 
+/// Planes of sums, each of two doubles: see base/exact_sum.h.
+struct SumPlanes {
+  double* high = nullptr;
+  double* low = nullptr;
+};
+
 /// Planes of width * height values. What the sum planes hold depends on the sampler:
 ///   independent: sums of R, G, B, then sums of their squares (6 planes);
 ///   Sobol': for each replicate r the sums of R, G, B in planes 3 r, 3 r + 1, 3 r + 2 (3 * kReplicates planes).
 /// Every pixel's samples are added one after the other in the order of their index, so the bits do not depend on how
-/// the work was cut.
+/// the work was cut. Addends have 24 bits, so that ranges of samples can be added up as exactly.
 struct FilmView {
-  double* sums = nullptr;
+  SumPlanes sums;
   std::uint32_t* counts = nullptr;  ///< samples that were added, per pixel; kSomeDropped says that others were not
-  double* moments = nullptr;        ///< 3 planes or null: weighted sums of the squares of X, Y and Z
-  double* features = nullptr;       ///< weighted sums, one plane for each bit of `feature_mask`
+  SumPlanes moments;                ///< 3 planes or none: weighted sums of the squares of X, Y and Z
+  SumPlanes features;               ///< weighted sums, one plane for each bit of `feature_mask`
   std::uint32_t feature_mask = 0;
   std::uint32_t width = 0, height = 0;
   bool weighted = false;  ///< samples carry weights of the reconstruction filter
 
   std::size_t pixels() const { return static_cast<std::size_t>(width) * height; }
-  double* sum_plane(std::uint32_t k) const { return sums + k * pixels(); }
+  double* sum_plane(std::uint32_t k) const { return sums.high + k * pixels(); }
 };
 
 }  // namespace norrsken

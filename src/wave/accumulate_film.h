@@ -1,6 +1,7 @@
 // Stage: finished SLOTS -> the film's sums.
 #pragma once
 
+#include "base/exact_sum.h"
 #include "color/srgb.h"
 #include "simd/lanes.h"
 #include "tables/film_view.h"
@@ -20,13 +21,22 @@ NORRSKEN_INLINE bool all_finite(const float* values, std::uint32_t n) {
   return largest < 0x7f800000u;
 }
 
-NORRSKEN_INLINE void add_row(double* sums, const float* values, std::uint32_t n) {
-  for (std::uint32_t i = 0; i < n; ++i) sums[i] += static_cast<double>(values[i]);
+/// The planes' values from `at` on.
+NORRSKEN_INLINE SumPlanes part_of(const SumPlanes& planes, std::size_t at) {
+  return {planes.high + at, planes.low + at};
 }
-NORRSKEN_INLINE void add_squares_of_row(double* sums, const float* values, std::uint32_t n) {
+
+NORRSKEN_INLINE void add_row(const SumPlanes& sums, const float* __restrict values, std::uint32_t n) {
+  double* __restrict high = sums.high;
+  double* __restrict low = sums.low;
+  for (std::uint32_t i = 0; i < n; ++i) add_exactly(high[i], low[i], static_cast<double>(values[i]));
+}
+NORRSKEN_INLINE void add_squares_of_row(const SumPlanes& sums, const float* __restrict values, std::uint32_t n) {
+  double* __restrict high = sums.high;
+  double* __restrict low = sums.low;
   for (std::uint32_t i = 0; i < n; ++i) {
     const double v = static_cast<double>(values[i]);
-    sums[i] += v * v;
+    add_exactly(high[i], low[i], rounded_to_24_bits(v * v));
   }
 }
 
@@ -56,13 +66,13 @@ inline void add_moments(const FilmView& film, const Queue& slots, std::uint32_t 
   // A copy: reading the constant itself by index would emit it in every instruction set's objects.
   constexpr auto kRows = kXyzFromSrgb;
   for (std::uint32_t k = 0; k < 3; ++k) {
-    double* sums = film.moments + k * film.pixels() + pixel;
+    const SumPlanes sums = part_of(film.moments, k * film.pixels() + pixel);
     const ColorVector row = kRows[k];
     for (std::uint32_t i = 0; i < n; ++i) {
       const double v = row[0] * static_cast<double>(rgb[0][i]) + row[1] * static_cast<double>(rgb[1][i]) +
                        row[2] * static_cast<double>(rgb[2][i]);
       const float weight = film.weighted ? slots.field(kSlotWeight)[slot + i] : 1.0f;
-      sums[i] += static_cast<double>(weight) * v * v;
+      add_exactly(sums.high[i], sums.low[i], rounded_to_24_bits(static_cast<double>(weight) * v * v));
     }
   }
 }
@@ -90,13 +100,13 @@ inline void accumulate_film(const WaveJob& job, SamplerKind sampler, const Queue
           !all_finite(slots.field(kSlotBlue) + slot, job.width)) {
         drop_non_finite(job, film, slots, sample, slot, pixel, dropped);
       }
-      if (film.moments != nullptr) add_moments(film, slots, slot, pixel, job.width);
+      if (film.moments.high != nullptr) add_moments(film, slots, slot, pixel, job.width);
       if (film.weighted) weigh_row(slots, slot, job.width);
       for (std::uint32_t channel = 0; channel < 3; ++channel) {
         const float* values = slots.field(kSlotRed + channel) + slot;
-        add_row(film.sum_plane(first_plane + channel) + pixel, values, job.width);
+        add_row(part_of(film.sums, (first_plane + channel) * film.pixels() + pixel), values, job.width);
         if (sampler == SamplerKind::independent) {
-          add_squares_of_row(film.sum_plane(3 + channel) + pixel, values, job.width);
+          add_squares_of_row(part_of(film.sums, (3 + channel) * film.pixels() + pixel), values, job.width);
         }
       }
     }
@@ -109,15 +119,16 @@ inline void accumulate_features(const WaveJob& job, const Queue& slots, const Fi
     for (std::uint32_t y = 0; y < job.height; ++y) {
       const std::uint32_t slot = s * job.pixel_stride() + y * job.width;
       const float* weights = slots.field(kSlotWeight) + slot;
-      double* sums = film.features + static_cast<std::size_t>(job.y0 + y) * film.width + job.x0;
-      for (std::uint32_t rest = film.feature_mask; rest != 0; rest &= rest - 1, sums += film.pixels()) {
+      std::size_t at = static_cast<std::size_t>(job.y0 + y) * film.width + job.x0;
+      for (std::uint32_t rest = film.feature_mask; rest != 0; rest &= rest - 1, at += film.pixels()) {
+        const SumPlanes sums = part_of(film.features, at);
         const auto feature = static_cast<std::uint32_t>(__builtin_ctz(rest));
         const float* values = slots.field(kSlotFeatures + feature) + slot;
         const bool discrete = (kDiscreteFeatures >> feature & 1u) != 0;
         if (discrete && job.first_sample + s > 0) continue;
         if (film.weighted && !discrete) {
           for (std::uint32_t x = 0; x < job.width; ++x) {
-            sums[x] += static_cast<double>(weights[x]) * static_cast<double>(values[x]);
+            add_exactly(sums.high[x], sums.low[x], static_cast<double>(weights[x] * values[x]));
           }
         } else {
           add_row(sums, values, job.width);

@@ -1,6 +1,7 @@
 #include "tests/end_to_end/rendering.h"
 
 #include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 
 namespace norrsken::end_to_end {
@@ -42,6 +43,16 @@ Image render_image(const Scene& scene, RenderOptions options, bool layers) {
     throw std::runtime_error("rendered with " + statistics.accelerator);
   }
   return render->image(layers);
+}
+
+bool identical(const Image& a, const Image& b) {
+  if (a.width != b.width || a.height != b.height || a.channels.size() != b.channels.size()) return false;
+  for (std::size_t c = 0; c < a.channels.size(); ++c) {
+    const Channel &x = a.channels[c], &y = b.channels[c];
+    if (x.name != y.name || x.values.size() != y.values.size()) return false;
+    if (std::memcmp(x.values.data(), y.values.data(), x.values.size() * sizeof(float)) != 0) return false;
+  }
+  return true;
 }
 
 statistics::Picture picture_of(const Image& image) {

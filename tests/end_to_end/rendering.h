@@ -27,6 +27,9 @@ Scene load_test_scene_with(const std::string& file, const LoadOptions& options);
 /// instruction set or accelerator was used than was asked for.
 Image render_image(const Scene& scene, RenderOptions options, bool layers = false);
 
+/// All channels, bit for bit.
+bool identical(const Image& a, const Image& b);
+
 /// R, G, B of an image.
 statistics::Picture picture_of(const Image& image);
 
