@@ -19,7 +19,7 @@ FAMILIES = ["bsdf", "camera", "integrator", "light", "rfilter", "sampler", "shap
 # Mathematics that several models of a family use.
 SHARED = {"bsdf/coat.h", "bsdf/fresnel.h", "bsdf/microfacet.h", "bsdf/principled_lobes.h",
           "bsdf/resolved.h", "camera/connect.h", "light/emit.h",
-          "sampler/dimensions.h", "sampler/hash.h"}
+          "sampler/dimensions.h", "sampler/hash.h", "shape/curve.h"}
 
 # Loops over the kinds of a family, besides FAMILY/FAMILY.h.
 DISPATCH = {"light/emit_lights.h", "light/sample_lights.h", "texture/parameter_reader.h"}

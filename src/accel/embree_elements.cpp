@@ -1,8 +1,11 @@
 #include "accel/embree_elements.h"
 
+#include "accel/embree_curves.h"
 #include "accel/embree_grid.h"
+#include "shape/bsplinecurve.h"
 #include "shape/cylinder.h"
 #include "shape/disk.h"
+#include "shape/linearcurve.h"
 #include "shape/sdfgrid.h"
 
 namespace norrsken {
@@ -22,6 +25,10 @@ bool has_elements(AnalyticKind kind) {
 
 RTCGeometry make_embree_elements(RTCDevice device, const ElementShape& shape) {
   switch (shape.record->kind) {
+    case AnalyticKind::bsplinecurve:
+      return make_embree_bspline_curves(device, shape);
+    case AnalyticKind::linearcurve:
+      return make_embree_linear_curves(device, shape);
     case AnalyticKind::sdfgrid:
       return make_embree_grid(device, shape);
     default:

@@ -6,8 +6,10 @@
 #include "accel/embree_callbacks.h"
 #include "accel/sphere.h"
 #include "math/affine.h"
+#include "shape/bsplinecurve.h"
 #include "shape/cylinder.h"
 #include "shape/disk.h"
+#include "shape/linearcurve.h"
 #include "shape/sdfgrid.h"
 
 namespace norrsken {

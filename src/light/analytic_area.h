@@ -8,8 +8,10 @@
 
 #include "light/emit.h"
 #include "math/affine.h"
+#include "shape/bsplinecurve.h"
 #include "shape/cylinder.h"
 #include "shape/disk.h"
+#include "shape/linearcurve.h"
 #include "shape/sdfgrid.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -66,7 +68,7 @@ struct AnalyticAreaLight {
     Mask sampled = Float(1.0f) < Float(0.0f);
 #define NORRSKEN_ANALYTIC(kind, Model)                                                                \
   if (const Mask of_kind = lanes_of<Model>(scene, AnalyticKind::kind, place, active); any(of_kind)) { \
-    normal = select(of_kind, surface_of<Model>(ElementReader{}, local).normal, normal);                                \
+    normal = select(of_kind, surface_of<Model>(ElementReader{}, local).normal, normal);               \
     sampled |= of_kind;                                                                               \
   }
 #include "shape/list.def"

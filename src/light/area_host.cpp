@@ -11,8 +11,10 @@
 #include <optional>
 
 #include "light/light_host.h"
+#include "shape/bsplinecurve.h"
 #include "shape/cylinder.h"
 #include "shape/disk.h"
+#include "shape/linearcurve.h"
 #include "shape/sdfgrid.h"
 
 namespace norrsken {

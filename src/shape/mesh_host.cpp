@@ -8,8 +8,8 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "base/text.h"
 #include "math/special.h"
+#include "shape/shape_file_host.h"
 
 namespace norrsken {
 namespace {
@@ -118,15 +118,8 @@ bool drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
 
 /// The file's bytes are let go of when they have been read.
 std::optional<MeshData> read_file(const std::string& path, Parameters& p, Builder& builder, const ReadMesh& read) {
-  std::string problem;
-  const std::optional<std::string> bytes = builder.files().read(path, problem);
-  if (!bytes) {
-    p.error("filename", fmt::format("cannot read {}: {}", quoted(path, 200), problem),
-            fmt::format("a readable {} file", p.node().plugin));
-    return std::nullopt;
-  }
-  builder.diagnostics().named_at(path, p.where("filename"));
-  return read(*bytes, path, builder.diagnostics());
+  const std::optional<std::string> bytes = read_shape_file(path, p, builder);
+  return bytes ? read(*bytes, path, builder.diagnostics()) : std::nullopt;
 }
 
 }  // namespace

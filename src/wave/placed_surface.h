@@ -4,8 +4,10 @@
 #pragma once
 
 #include "accel/hit.h"
+#include "shape/bsplinecurve.h"
 #include "shape/cylinder.h"
 #include "shape/disk.h"
+#include "shape/linearcurve.h"
 #include "shape/sdfgrid.h"
 #include "tables/wave_types.h"
 #include "wave/records.h"

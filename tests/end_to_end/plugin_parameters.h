@@ -153,8 +153,6 @@ inline const Plugin kPlugins[] = {
     {"shape", "cube", "", kMesh},
     {"shape", "obj", "", join(kMesh, {file("star.obj"), {"flip_tex_coords", "boolean", "false"}}), {"filename"}},
     {"shape", "ply", "", join(kMesh, {file("knot.ply"), {"flip_tex_coords", "boolean", "true"}}), {"filename"}},
-    {"shape", "linearcurve", "", {file("grass.txt"), kToWorld}, {"filename"}},
-    {"shape", "bsplinecurve", "", {file("tendrils.txt"), kToWorld}, {"filename"}},
     {"shape",
      "sdfgrid",
      "",
