@@ -18,7 +18,7 @@ FAMILIES = ["bsdf", "camera", "integrator", "light", "rfilter", "sampler", "shap
 
 # Mathematics that several models of a family use.
 SHARED = {"bsdf/coat.h", "bsdf/fresnel.h", "bsdf/microfacet.h", "bsdf/principled_lobes.h",
-          "bsdf/resolved.h", "camera/connect.h", "light/emit.h",
+          "bsdf/resolved.h", "camera/connect.h", "light/area_point.h", "light/emit.h", "light/light_tree.h",
           "sampler/dimensions.h", "sampler/hash.h", "shape/curve.h"}
 
 # Loops over the kinds of a family, besides FAMILY/FAMILY.h.

@@ -346,7 +346,7 @@ std::uint32_t Builder::shape_group(const Node& node) {
   return groups_[&node] = geometry_.end_group();
 }
 
-void Builder::choose_lights() { norrsken::choose_lights(tables().lights, shares_of_choice(light_powers_)); }
+void Builder::choose_lights() { norrsken::choose_lights(tables(), light_powers_); }
 
 void Builder::summarise() {
   const SceneTables& t = tables();

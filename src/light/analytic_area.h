@@ -6,7 +6,7 @@
 // Departures  shapes without a way of sampling their area (see src/shape/shape.h) are lights that only rays find
 #pragma once
 
-#include "light/emit.h"
+#include "light/area_point.h"
 #include "math/affine.h"
 #include "shape/bsplinecurve.h"
 #include "shape/cylinder.h"
@@ -46,18 +46,12 @@ struct AnalyticAreaLight {
 
   __attribute__((noinline)) static LightSample sample(const SceneView& scene, const Light& light,
                                                       const Vec3f& reference, Vec2f u, Mask active) {
-    const AreaPoint p = sample_area(scene, light, u, active);
-    const Vec3f to_light = p.point - reference;
-    const Float distance2 = dot(to_light, to_light);
-    const Float facing = -dot(to_light, p.normal);  // cos at the light, times the distance
-    const Float pdf = distance2 * sqrt(distance2) / (facing * light.area);
-    return {fma(p.normal, p.scale * Float(kOffsetUlps), p.point), pdf, p.radiance, p.sampled & (facing > Float(0.0f))};
+    return seen_from(reference, sample_area(scene, light, u, active), light.area);
   }
 
   __attribute__((noinline)) static EmittedRay emit(const SceneView& scene, const Light& light, Vec2f position,
                                                    Vec2f direction, Mask active) {
-    const AreaPoint p = sample_area(scene, light, position, active);
-    return emit_from_surface(p.point, p.normal, p.scale, light.area, p.radiance, direction, p.sampled);
+    return emit_from_surface(sample_area(scene, light, position, active), light.area, direction);
   }
 
   __attribute__((noinline)) static Float pdf_sa(const SceneView& scene, const Light& light, const Vec3f& reference,
@@ -68,8 +62,10 @@ struct AnalyticAreaLight {
     Mask sampled = Float(1.0f) < Float(0.0f);
 #define NORRSKEN_ANALYTIC(kind, Model)                                                                \
   if (const Mask of_kind = lanes_of<Model>(scene, AnalyticKind::kind, place, active); any(of_kind)) { \
-    normal = select(of_kind, surface_of<Model>(ElementReader{}, local).normal, normal);               \
-    sampled |= of_kind;                                                                               \
+    if constexpr (kCanBeSampled<Model>) {                                                             \
+      normal = select(of_kind, surface_of<Model>(ElementReader{}, local).normal, normal);             \
+      sampled |= of_kind;                                                                             \
+    }                                                                                                 \
   }
 #include "shape/list.def"
 #undef NORRSKEN_ANALYTIC
@@ -77,12 +73,6 @@ struct AnalyticAreaLight {
     return zero_unless(sampled, pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, cosine));
   }
 
- private:
-  struct AreaPoint {
-    Vec3f point, normal, radiance;
-    Float scale;  ///< what rounding is relative to on a ray's way to the local space and back
-    Mask sampled;
-  };
   static inline AreaPoint sample_area(const SceneView& scene, const Light& light, Vec2f u, Mask active) {
     const Place place = load(scene, light, active);
     const UInt texture = light_texture(scene, light.parameters, active);
@@ -99,6 +89,7 @@ struct AnalyticAreaLight {
     const Vec3f point = place.world_from_local.point(local.position);
     const Vec3f there = place.local_from_world.magnitude(point);
     const Float one(1.0f);
+    // What rounding is relative to on a ray's way to the local space and back.
     const Float scale =
         largest(place.world_from_local.magnitude({max(there.x, one), max(there.y, one), max(there.z, one)}));
     const Vec3f radiance =
@@ -107,6 +98,7 @@ struct AnalyticAreaLight {
     return {point, world_normal(place, local.normal), radiance, scale, sampled};
   }
 
+ private:
   template <class Model>
   static NORRSKEN_INLINE void sample_kind(Vec2f u, bool needs_uv, Mask of_kind, LocalPoint& local,
                                           TexturePoint& on_texture, Mask& sampled) {

@@ -24,7 +24,7 @@ void compile_emitter_area(Parameters& p, Builder& builder, std::uint32_t shape) 
     set_values(light.record.emission, radiance);
     // A light without power is never chosen.
     const double area = light.sampled ? double{light.record.area} : 0;
-    const std::uint32_t index = builder.add_light(light.record, surface_power(area, radiance));
+    const std::uint32_t index = builder.add_light(light.record, surface_power(area, radiance, light.bounds));
     for (const std::uint32_t primitive : light.primitives) {
       builder.set_light(shape, primitive, index);
       builder.surfaces_of(shape)[primitive].material_front |= kEmitsBit;

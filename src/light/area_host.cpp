@@ -51,6 +51,18 @@ LightRecord flat_light(LightKind kind, const Corner& apex, const Corner& left, c
   return light;
 }
 
+/// A flat light's: it shines to one side.
+LightBounds flat_bounds(const LightRecord& light) {
+  const glm::dvec3 origin = to_dvec(std::to_array(light.origin)), edge1 = to_dvec(std::to_array(light.edge1)),
+                   edge2 = to_dvec(std::to_array(light.edge2));
+  // Of a triangle there is no fourth corner.
+  const glm::dvec3 last = light.kind == LightKind::parallelogram ? origin + edge1 + edge2 : origin;
+  return {.lower = glm::min(glm::min(origin, last), glm::min(origin + edge1, origin + edge2)),
+          .upper = glm::max(glm::max(origin, last), glm::max(origin + edge1, origin + edge2)),
+          .axis = to_dvec(std::to_array(light.normal)),
+          .normals = 0};
+}
+
 /// Whether `opposite` completes `apex`, `left`, `right` to a parallelogram whose diagonal is left-right.
 bool completes_parallelogram(const Corner& apex, const Corner& left, const Corner& right, const Corner& opposite) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -96,11 +108,13 @@ struct Mesh {
   std::vector<std::array<Texcoord, 3>> texcoords;
   std::uint32_t first_primitive, shape;
   TextureWord texture;
+  bool smooth;  ///< lights are to know the vertices' normals
   bool merge;
 };
 
-/// What FlatAreaLight's texture asks for: see src/light/flat_area.h. `apex` is the corner that the light begins with.
-std::uint32_t add_texture(Builder& builder, const Mesh& mesh, std::size_t triangle, std::size_t apex) {
+/// What FlatAreaLight's texture and normals ask for: see src/light/flat_area.h. `apex` is the corner that the light
+/// begins with.
+std::uint32_t add_parameters(Builder& builder, const Mesh& mesh, std::size_t triangle, std::size_t apex) {
   const auto& uv = mesh.texcoords[triangle];
   const Texcoord &origin = uv[apex], &left = uv[(apex + 1) % 3], &right = uv[(apex + 2) % 3];
   ParameterBlock block;
@@ -150,7 +164,8 @@ std::vector<AreaLight> flat_lights(Builder& builder, const Mesh& mesh) {
       first_corner = k;
       taken[neighbour->second] = true;
     }
-    if (mesh.texture != 0) light.record.parameters = add_texture(builder, mesh, i, first_corner);
+    if (mesh.texture != 0 || mesh.smooth) light.record.parameters = add_parameters(builder, mesh, i, first_corner);
+    light.bounds = flat_bounds(light.record);
     lights.push_back(std::move(light));
   }
   return lights;
@@ -165,7 +180,26 @@ AreaLight sphere_light(const SurfaceRecord& sphere, bool flip_normals, std::uint
   std::copy_n(sphere.geometry, 3, light.record.origin);
   light.record.edge1[0] = sphere.geometry[3];
   light.record.edge1[1] = flip_normals ? 1.0f : 0.0f;
+  const glm::dvec3 center(sphere.geometry[0], sphere.geometry[1], sphere.geometry[2]);
+  light.bounds = {.lower = center - radius, .upper = center + radius};
   return light;
+}
+
+/// Of shapes whose area is sampled: all fit into a box of the local space. A disk faces one way.
+LightBounds analytic_bounds(const AnalyticRecord& shape) {
+  const float* m = shape.place.world_from_local;
+  glm::dvec3 center, half, z;
+  for (int i = 0; i < 3; ++i) {
+    const float* row = m + 4 * i;
+    center[i] = double{row[3]} + double{row[2]} / 2;
+    half[i] = std::abs(double{row[0]}) + std::abs(double{row[1]}) + std::abs(double{row[2]}) / 2;
+    z[i] = shape.place.local_from_world[8 + i];
+  }
+  LightBounds bounds{.lower = center - half, .upper = center + half};
+  if (shape.kind != AnalyticKind::disk) return bounds;
+  bounds.axis = glm::normalize(z) * (shape.flip_normals != 0 ? -1.0 : 1.0);
+  bounds.normals = 0;
+  return bounds;
 }
 
 bool can_be_sampled(AnalyticKind kind) {
@@ -189,13 +223,14 @@ std::vector<AreaLight> analytic_lights(Builder& builder, std::span<const Surface
   light.record.kind = LightKind::analytic;
   light.record.area = builder.tables().analytics[analytic].area;
   light.sampled = can_be_sampled(builder.tables().analytics[analytic].kind);
+  light.bounds = analytic_bounds(builder.tables().analytics[analytic]);
   light.record.parameters = builder.add_parameters(ParameterBlock().add_word(texture).add_word(analytic).values());
   return {light};
 }
 
 }  // namespace
 
-std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, TextureWord texture) {
+std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, TextureWord texture, bool along_normals) {
   const auto surfaces = builder.surfaces_of(shape);
   const ShapeRecord& record = builder.tables().shapes[shape];
   if (builder.is_analytic(shape)) return analytic_lights(builder, surfaces, texture);
@@ -209,13 +244,13 @@ std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, Textur
     }
     return lights;
   }
-  Mesh mesh{{}, {}, record.first_primitive, shape, texture, true};
-  const bool has_texcoords = record.has_texcoords != 0;
+  const bool smooth = along_normals && record.smooth != 0, has_texcoords = record.has_texcoords != 0;
+  Mesh mesh{{}, {}, record.first_primitive, shape, texture, smooth, !smooth};
   // Attributes belong to triangles, and so do coordinates that are barycentric.
-  if (texture != 0) mesh.merge = has_texcoords && texture_kind(texture) != TextureKind::mesh_attribute;
+  if (texture != 0) mesh.merge = mesh.merge && has_texcoords && texture_kind(texture) != TextureKind::mesh_attribute;
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
     mesh.triangles.push_back(corners_of(builder.tables(), record.first_primitive + i));
-    if (texture != 0) {
+    if (texture != 0 || smooth) {
       mesh.texcoords.push_back(texcoords_of(builder.tables(), record.first_primitive + i, has_texcoords));
     }
   }

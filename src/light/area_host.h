@@ -11,12 +11,15 @@ namespace norrsken {
 struct AreaLight {
   LightRecord record{};
   std::vector<std::uint32_t> primitives;
+  LightBounds bounds{};
   bool sampled = true;  ///< false: only rays find it
 };
 
 /// In order of the first primitive of each. Two triangles become one parallelogram if they share an edge, face the same
 /// way, and the corners across that edge mirror each other in its middle, to within the rounding of their coordinates.
 /// With a `texture` as their radiance, texture coordinates count as corners do. A shape with a formula is one light.
-std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, TextureWord texture);
+/// `along_normals`: the lights are to know the vertices' normals, so triangles of smooth meshes stay apart.
+std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, TextureWord texture,
+                                   bool along_normals = false);
 
 }  // namespace norrsken

@@ -14,13 +14,6 @@ struct EmittedRay {
   Mask valid;
 };
 
-/// Of a light on a surface: cosine-weighted from a point that is uniform over `area`.
-NORRSKEN_INLINE EmittedRay emit_from_surface(const Vec3f& point, const Vec3f& normal, Float rounding_scale, Float area,
-                                             const Vec3f& radiance, Vec2f direction, Mask active) {
-  return {fma(normal, rounding_scale * Float(kOffsetUlps), point),
-          make_frame(normal).to_world(warp_to_cosine_hemisphere(direction)), radiance * (area * Float(kPi)), active};
-}
-
 /// Of a point that shines into `direction`, which was found with `pdf_sa`: what `sample` says of a place there.
 template <class Model>
 NORRSKEN_INLINE EmittedRay emit_from_point(const SceneView& scene, const Light& light, const Vec3f& direction,

@@ -159,6 +159,36 @@ TEST(EnvmapEmitter, SurroundsTheScene) {
   EXPECT_THAT(c.tables().lights.at(0).emission, ElementsAre(3, 3, 3));
 }
 
+/// What the density leaves out, the last of the kernel's parameters.
+TEST(EnvmapEmitter, CompensatesWhereDirectionsCompete) {
+  std::vector<std::array<double, 3>> texels(12, {1, 1, 1});
+  texels[5] = {9, 9, 9};
+  const auto darkest = [&](const std::string& integrator, const char* value, bool even = false) {
+    const Compiled c = compile_elements(
+        kSensor + kShape + integrator +
+            R"(<emitter type="envmap"><string name="filename" value="sun.hdr"/><boolean name="mis_compensation" value=")" +
+            value + R"("/></emitter>)",
+        {{"sun.hdr", even ? radiance_file(4, 3, {12, {1, 1, 1}}) : radiance_file(4, 3, texels)}});
+    EXPECT_THAT(c.messages(), IsEmpty());
+    return double{parameters_of(c, 9)[8]};
+  };
+  // The equator's row weighs 1, each pole's the sine of a quarter of a row.
+  const double pole = std::sin(std::numbers::pi / 8), mean = 1 + 8 / (4 * (1 + 2 * pole));
+  EXPECT_NEAR(darkest("", "true"), mean, 1e-5);
+  EXPECT_EQ(darkest("", "false"), 0);
+  EXPECT_EQ(darkest("", "true", true), 0);  // hardly differs from its mean
+  EXPECT_EQ(darkest(R"(<integrator type="ptracer"/>)", "true"), 0);
+  EXPECT_EQ(darkest(R"(<integrator type="whitted"/>)", "true"), 0);
+  EXPECT_EQ(darkest(R"(<integrator type="direct"><integer name="bsdf_samples" value="0"/>)"
+                    R"(<integer name="emitter_samples" value="1"/></integrator>)",
+                    "true"),
+            0);
+  EXPECT_THAT(compile_kind("envmap", R"(<string name="filename" value="map.hdr"/>)"
+                                     R"(<float name="mis_compensation" value="1"/>)")
+                  .messages(),
+              ElementsAre("error: 'mis_compensation' is a float [boolean]"));
+}
+
 TEST(EnvmapEmitter, RefusesWhatMakesNoSense) {
   EXPECT_THAT(
       compile_kind("envmap", "").messages(),
@@ -199,8 +229,14 @@ TEST(DirectionalAreaEmitter, SaysThatNothingFindsIt) {
       R"(<shape type="rectangle"><emitter type="directionalarea"><float name="radiance" value="2"/></emitter></shape>)");
   EXPECT_THAT(c.messages(),
               ElementsAre("warning: the light of emitter 'directionalarea' cannot be found by paths from the "
-                          "camera: it adds nothing to the image"));
-  EXPECT_EQ(c.tables().lights.size(), 1u);
+                          "camera: it adds nothing to the image [integrator 'ptracer', whose paths begin at the "
+                          "lights]"));
+  ASSERT_EQ(c.tables().lights.size(), 2u);
+  EXPECT_EQ(c.tables().lights[0].prob, 0);
+  EXPECT_EQ(c.tables().lights[1].prob, 1);
+  // It is an emitter that no ray sees shine.
+  EXPECT_EQ(c.tables().light_of(0), 0u);
+  EXPECT_EQ(c.tables().surfaces.at(0).material_front & kEmitsBit, 0u);
   EXPECT_THAT(compile_kind("directionalarea", "").messages(),
               ElementsAre("error: emitter 'directionalarea' stands outside of a shape "
                           "[a directionalarea emitter inside of the shape that shines]"));
@@ -210,6 +246,29 @@ TEST(DirectionalAreaEmitter, SaysThatNothingFindsIt) {
           R"(<shape type="rectangle"><emitter type="directionalarea"><float name="power" value="2"/></emitter></shape>)")
           .messages(),
       ::testing::Contains("error: unused parameter 'power' of emitter 'directionalarea' [radiance]"));
+}
+
+TEST(DirectionalAreaEmitter, ShinesForPathsFromTheLights) {
+  const auto light = [](const std::string& shape, const std::string& inside = {}) {
+    const Compiled c = compile_elements(
+        kSensor + R"(<integrator type="ptracer"/><shape type=")" + shape + R"(<emitter type="directionalarea">)" +
+            (inside.empty() ? R"(<rgb name="radiance" value="1, 2, 3"/>)" : inside) + "</emitter></shape>",
+        kImages);
+    EXPECT_THAT(c.messages(), IsEmpty());
+    return c.tables().lights.at(0);
+  };
+  EXPECT_EQ(light(R"(rectangle">)").kind, LightKind::parallelogram_normals);
+  EXPECT_EQ(light(R"(sphere">)").kind, LightKind::sphere_normals);
+  EXPECT_EQ(light(R"(disk">)").kind, LightKind::analytic_normals);
+  EXPECT_EQ(light(R"(cube">)").prob, 1.0f / 6);
+  EXPECT_THAT(light(R"(sphere">)").emission, ElementsAre(1, 2, 3));
+  const LightRecord textured = light(R"(rectangle">)", "<texture name=\"radiance\"" + kSlide);
+  EXPECT_THAT(textured.emission, ElementsAre(1, 2, 0.5f));
+  EXPECT_NE(textured.parameters, kNone);
+  EXPECT_THAT(compile_elements(kSensor + R"(<shape type="sphere"><emitter type="directionalarea">)"
+                                         R"(<rgb name="radiance" value="-1, 0, 0"/></emitter></shape>)")
+                  .messages(),
+              ::testing::Contains("error: 'radiance' is (-1, 0, 0) [components of at least 0]"));
 }
 
 // --- textured surfaces -----------------------------------------------------------------------------------------------

@@ -5,13 +5,16 @@
 //   scale             number, at least 0 (default 1): factor on the image's radiance
 //   to_world          transform that keeps shapes (default identity). The local y axis is up, where the image's first
 //                     row is; its middle column is at -z, and columns to the right of it are towards +x
-//   mis_compensation  boolean: a way of sampling in Mitsuba; accepted and without effect
+//   mis_compensation  boolean (default false): light sampling leaves what is darker than the mean to the directions that
+//                     surfaces sample, which can reduce noise; of effect only where both compete (path, and direct with
+//                     samples of both)
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "color/srgb.h"
@@ -62,8 +65,37 @@ std::uint32_t float_texels(const StoredImage& image, std::vector<float>& texels)
   return offset;
 }
 
+double luminance_of(const float* texel) { return luminance(double{texel[0]}, double{texel[1]}, double{texel[2]}); }
+
+/// The sine of the polar angle of row `y` of texels, the last of which is `last`; at the poles that of a quarter of a row.
+double sine_of_row(std::size_t y, std::size_t last) {
+  const auto rows = static_cast<double>(last);
+  return std::sin(std::clamp(static_cast<double>(y), 0.25, rows - 0.25) * std::numbers::pi / rows);
+}
+
+/// The mean luminance over all directions; 0 of an image in which it hardly differs from the least, for which there is
+/// nothing to be gained.
+double compensation_of(const StoredImage& image, const float* texels) {
+  double total = 0, weight = 0, least = std::numeric_limits<double>::infinity();
+  for (std::size_t y = 0; y < image.height; ++y) {
+    const double sine = sine_of_row(y, image.height - std::size_t{1});
+    for (std::size_t x = 0; x < image.width; ++x) {
+      const double value = luminance_of(&texels[3 * (y * image.width + x)]);
+      total += value * sine, weight += sine;
+      least = std::min(least, value);
+    }
+  }
+  const double mean = total / weight;
+  return mean - least > 0.01 * mean ? mean : 0;
+}
+
+/// Whether surfaces sample directions wherever they sample lights, so that lights need not be sampled everywhere.
+bool has_competition(const IntegratorSettings& integrator) {
+  return !integrator.from_lights && integrator.diffuse_bounces && integrator.bsdf_samples > 0;
+}
+
 /// Writes the distributions and the kernel's parameters; returns the mean radiance over all directions.
-glm::dvec3 write_map(const StoredImage& image, SceneTables& tables, ParameterBlock& block) {
+glm::dvec3 write_map(const StoredImage& image, bool compensate, SceneTables& tables, ParameterBlock& block) {
   auto& texels = tables.texels;
   const std::uint32_t first = float_texels(image, texels);
   const std::size_t width = image.width, rows = image.height - std::size_t{1};
@@ -72,16 +104,17 @@ glm::dvec3 write_map(const StoredImage& image, SceneTables& tables, ParameterBlo
   const auto offset = static_cast<std::uint32_t>(texels.size());
   texels.resize(texels.size() + columns_offset + rows * stride);
 
+  // As the kernel has it.
+  const double darkest = compensate ? double{static_cast<float>(compensation_of(image, &texels[first]))} : 0.0;
   glm::dvec3 total(0);
   std::vector<double> above(width), below(width), patches(width), row_weights(rows);
   for (std::size_t y = 0; y <= rows; ++y) {
-    const double last = static_cast<double>(rows);
-    const double sine = std::sin(std::clamp(static_cast<double>(y), 0.25, last - 0.25) * std::numbers::pi / last);
+    const double sine = sine_of_row(y, rows);
     above.swap(below);
     for (std::size_t x = 0; x < width; ++x) {
       const float* texel = &texels[first + 3 * (y * width + x)];
       const glm::dvec3 color(texel[0], texel[1], texel[2]);
-      below[x] = std::max(luminance(color.r, color.g, color.b), 0.0) * sine;
+      below[x] = std::max(luminance_of(texel) - darkest, 0.0) * sine;
       total += color * sine * (y == 0 || y == rows ? 0.5 : 1.0);
     }
     if (y == 0) continue;
@@ -101,7 +134,7 @@ glm::dvec3 write_map(const StoredImage& image, SceneTables& tables, ParameterBlo
   const double patch_count = static_cast<double>(width) * static_cast<double>(rows);
   block.add_word(first).add_word(offset).add_word(static_cast<std::uint32_t>(columns_offset));
   block.add_word(static_cast<std::uint32_t>(rows)).add_word(row_guide).add_word(image.width).add_word(column_guide);
-  block.add(weight > 0 ? patch_count / weight / (2 * std::numbers::pi * std::numbers::pi) : 0);
+  block.add(weight > 0 ? patch_count / weight / (2 * std::numbers::pi * std::numbers::pi) : 0).add(darkest);
   return total / patch_count * (std::numbers::pi / 2);
 }
 
@@ -112,7 +145,7 @@ void compile_emitter_envmap(Parameters& p, Builder& builder, std::uint32_t shape
   const std::string filename = p.file("filename");
   const double scale = p.number("scale", 1, 0, kMaxEmission);
   const glm::dmat4 to_world = p.transform("to_world");
-  p.boolean("mis_compensation", false);
+  const bool compensate = p.boolean("mis_compensation", false) && has_competition(builder.tables().integrator);
   glm::dmat3 axes(to_world);
   axes /= glm::length(axes[0]);
   if (!keeps_lengths(axes)) {
@@ -137,7 +170,7 @@ void compile_emitter_envmap(Parameters& p, Builder& builder, std::uint32_t shape
   }
 
   ParameterBlock block;
-  const glm::dvec3 mean = scale * write_map(*image, builder.tables(), block);
+  const glm::dvec3 mean = scale * write_map(*image, compensate, builder.tables(), block);
   LightRecord light{};
   light.kind = LightKind::envmap;
   set_values(light.emission, glm::dvec3(scale));

@@ -1,13 +1,14 @@
 // Model       The radiance around the scene from an image in latitude-longitude format, interpolated bilinearly: its
 //             columns go around the local y axis, its first row is at +y, its last at -y, and its middle looks along -z.
-// Parameters  image (linear sRGB, W / (m^2 sr)), scale, to_world
+// Parameters  image (linear sRGB, W / (m^2 sr)), scale, to_world, mis_compensation
 // Measure     pdf_sa: proportional to the interpolated product of luminance and the rows' sine of the polar angle; a
 //             patch between four texels by inverting its row's and its column's distribution, a point in it by inverting
-//             the two linear densities
+//             the two linear densities. With MIS compensation the luminance is what exceeds its mean
 // Source      mapping: Mitsuba 3, emitter `envmap`; inversion with a guide: Chen and Asau, "On Generating Random Variates
 //             from an Empirical Distribution", 1974; linear densities: Pharr, Jakob, Humphreys, "Physically Based
-//             Rendering", 4th ed., section A.4.1
-// Departures  at the poles the sine is that of a quarter of a row, not 0, so that no light there has density 0
+//             Rendering", 4th ed., section A.4.1; Karlik, Sik, Vevoda, Skrivan, Krivanek, "MIS Compensation: Optimizing
+//             Sampling Techniques in Multiple Importance Sampling", 2019
+// Departures  the mean luminance is that over all directions, where Mitsuba's is over all pixels; at the poles the sine is that of a quarter of a row, not 0, so that no light there has density 0
 #pragma once
 
 #include <bit>
@@ -32,11 +33,13 @@ struct EnvmapEnvironment {
     std::uint32_t columns;  ///< offset from `rows` of the Distributions of the patches in each row
     Distribution row, column;
     float density_scale;  ///< from weight to density on the unit square, over 2 pi^2
+    float darkest;        ///< luminance up to which density is 0
   };
   static NORRSKEN_INLINE Map load(const SceneView& scene) {
     const float* p = scene.parameters + scene.lights[scene.environment].parameters;
     const auto word = [&](int k) { return std::bit_cast<std::uint32_t>(p[k]); };
-    return {scene.texels + word(0), scene.texels + word(1), word(2), {word(3), word(4)}, {word(5), word(6)}, p[7]};
+    return {
+        scene.texels + word(0), scene.texels + word(1), word(2), {word(3), word(4)}, {word(5), word(6)}, p[7], p[8]};
   }
 
   /// The four texels around a place, and where between them it is.
@@ -58,7 +61,7 @@ struct EnvmapEnvironment {
       const UInt first = to_uint(y) * UInt(map.column.cells);
       for (int c = 0; c < 2; ++c) {
         patch.color[r][c] = gather3(map.texels, (first + columns[c]) * UInt(3u), active);
-        patch.weight[r][c] = max(dot(patch.color[r][c], luminance), Float(0.0f)) * sine;
+        patch.weight[r][c] = max(dot(patch.color[r][c], luminance) - Float(map.darkest), Float(0.0f)) * sine;
       }
     }
     return patch;

@@ -6,7 +6,7 @@
 // Departures  none
 #pragma once
 
-#include "light/emit.h"
+#include "light/area_point.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -21,19 +21,29 @@ __attribute__((noinline)) inline Vec3f flat_texture(const SceneView& scene, cons
   return select(textured, evaluate_texture(scene, texture, {uv, word(7), word(8), b}, textured), light.emission);
 }
 
+/// The shading normals of triangles of smooth meshes, with parameters as above; the light's first corner is the
+/// triangle's.
+__attribute__((noinline)) inline Vec3f flat_shading_normal(const SceneView& scene, const Light& light, Vec2f b,
+                                                           Mask active) {
+  const auto word = [&](int k) { return gather_uint(scene.parameters + k, light.parameters, active); };
+  const auto* shapes = reinterpret_cast<const float*>(scene.shapes) + offsetof(ShapeRecord, smooth) / sizeof(float);
+  const UInt shape = word(8) * UInt(sizeof(ShapeRecord) / sizeof(float));
+  const Mask smooth = active & (gather_uint(shapes, shape, active) != UInt(0u));
+  const auto* vertices = reinterpret_cast<const float*>(scene.triangle_vertices);
+  const UInt first = word(7) * UInt(3u);
+  Vec3f normals[3];
+  for (int k = 0; k < 3; ++k) {
+    normals[k] = gather3(scene.normals, gather_uint(vertices + k, first, smooth) * UInt(3u), smooth);
+  }
+  const Vec3f sum = fma(normals[1], b.x, fma(normals[2], b.y, normals[0] * (Float(1.0f) - b.x - b.y)));
+  return select(smooth, normalize(sum), light.normal);
+}
+
 template <bool is_triangle>
 struct FlatAreaLight {
   static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f u,
                                             Mask active) {
-    const Vec2f b = is_triangle ? warp_to_triangle(u) : u;
-    const Vec3f point = fma(light.edge1, b.x, fma(light.edge2, b.y, light.origin));
-    const Vec3f to_light = point - reference;
-    const Float distance2 = dot(to_light, to_light);
-    const Float facing = -dot(to_light, light.normal);  // cos at the light, times the distance
-    const Float scale = largest(light.origin) + largest(light.edge1) + largest(light.edge2);
-    const Float pdf = distance2 * sqrt(distance2) / (facing * light.area);
-    return {fma(light.normal, scale * Float(kOffsetUlps), point), pdf, radiance_at(scene, light, b, active),
-            facing > Float(0.0f)};
+    return seen_from(reference, sample_area(scene, light, u, active), light.area);
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light& light, const Vec3f&, const Vec3f& direction,
@@ -41,17 +51,29 @@ struct FlatAreaLight {
     return pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, -dot(direction, light.normal));
   }
 
-  /// Uniform over the area, cosine-weighted over directions.
   static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f position, Vec2f direction,
                                          Mask active) {
-    const Vec2f b = is_triangle ? warp_to_triangle(position) : position;
+    return emit_from_surface(sample_area(scene, light, position, active), light.area, direction);
+  }
+
+  static NORRSKEN_INLINE AreaPoint sample_area(const SceneView& scene, const Light& light, Vec2f u, Mask active) {
+    const Vec2f b = barycentric(u);
     const Vec3f point = fma(light.edge1, b.x, fma(light.edge2, b.y, light.origin));
     const Float scale = largest(light.origin) + largest(light.edge1) + largest(light.edge2);
-    return emit_from_surface(point, light.normal, scale, light.area, radiance_at(scene, light, b, active), direction,
-                             active);
+    return {point, light.normal, radiance_at(scene, light, b, active), scale, active};
+  }
+
+  /// Interpolated between the vertices' where they have normals; such triangles have parameters.
+  static NORRSKEN_INLINE Vec3f shading_normal(const SceneView& scene, const Light& light, Vec2f u,
+                                              Mask active) requires is_triangle {
+    const Mask smooth = active & (light.parameters != UInt(kNone));
+    if (!scene.any_smooth || none(smooth)) return light.normal;
+    return flat_shading_normal(scene, light, barycentric(u), smooth);
   }
 
  private:
+  static NORRSKEN_INLINE Vec2f barycentric(Vec2f u) { return is_triangle ? warp_to_triangle(u) : u; }
+
   static NORRSKEN_INLINE Vec3f radiance_at(const SceneView& scene, const Light& light, Vec2f b, Mask active) {
     const UInt texture = light_texture(scene, light.parameters, active);
     const Mask textured = active & (texture != UInt(0u));

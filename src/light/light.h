@@ -6,6 +6,7 @@
 //                       Float distance, Mask active);
 // and, if rays to nowhere see it,
 //   static Vec3f radiance(const SceneView&, const Light&, const Vec3f& direction, Mask active);
+// Where lights are many they are chosen by place: light/light_tree.h.
 // Such lights put their sampled point two scene radii away, behind everything.
 // For paths that start at the lights (src/light/emit.h):
 //   static EmittedRay emit(const SceneView&, const Light&, Vec2f position, Vec2f direction, Mask active);

@@ -1,5 +1,6 @@
 #include "light/light_choice.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -14,17 +15,20 @@ double luminance_of(const glm::dvec3& color) { return luminance(color.r, color.g
 
 }  // namespace
 
-LightPower surface_power(double area, const glm::dvec3& radiance) {
-  return {.own = std::numbers::pi * area * luminance_of(radiance)};
+LightPower surface_power(double area, const glm::dvec3& radiance, const LightBounds& bounds) {
+  return {.own = std::numbers::pi * area * luminance_of(radiance), .bounds = bounds};
 }
-LightPower point_power(const glm::dvec3& intensity) { return {.own = 4 * std::numbers::pi * luminance_of(intensity)}; }
-LightPower spot_power(const glm::dvec3& intensity, double beam, double cutoff) {
+LightPower beam_power(double area, const glm::dvec3& irradiance) { return {.own = area * luminance_of(irradiance)}; }
+LightPower point_power(const glm::dvec3& intensity, const LightBounds& bounds) {
+  return {.own = 4 * std::numbers::pi * luminance_of(intensity), .bounds = bounds};
+}
+LightPower spot_power(const glm::dvec3& intensity, double beam, double cutoff, const LightBounds& bounds) {
   // The integral of the falloff over the cone's solid angle, in closed form; its limit if there is no edge.
   const double share = cutoff > beam ? 1 - (std::sin(cutoff) - std::sin(beam)) / (cutoff - beam) : 1 - std::cos(cutoff);
-  return {.own = 2 * std::numbers::pi * share * luminance_of(intensity)};
+  return {.own = 2 * std::numbers::pi * share * luminance_of(intensity), .bounds = bounds};
 }
-LightPower projector_power(double area, const glm::dvec3& irradiance) {
-  return {.own = std::numbers::pi * area * luminance_of(irradiance)};
+LightPower projector_power(double area, const glm::dvec3& irradiance, const LightBounds& bounds) {
+  return {.own = std::numbers::pi * area * luminance_of(irradiance), .bounds = bounds};
 }
 LightPower directional_power(const glm::dvec3& irradiance) { return {.per_cross_section = luminance_of(irradiance)}; }
 LightPower environment_power(const glm::dvec3& radiance) {
@@ -46,7 +50,7 @@ std::vector<double> shares_of_choice(std::span<const LightPower> lights) {
   return shares;
 }
 
-void choose_lights(std::span<LightRecord> lights, std::span<const double> shares) {
+void fill_alias_table(std::span<LightRecord> lights, std::span<const double> shares) {
   double total = 0;
   for (const double share : shares) total += share;
   const auto count = static_cast<double>(lights.size());
@@ -74,6 +78,15 @@ void choose_lights(std::span<LightRecord> lights, std::span<const double> shares
   }
   // What is left over differs from 1 by rounding alone and keeps its column. A light that must never be chosen cannot
   // be among it: its level is exactly 0, and the others' sum then leaves a donor until it is served.
+}
+
+void choose_lights(SceneTables& tables, std::span<const LightPower> lights) {
+  fill_alias_table(tables.lights, shares_of_choice(lights));
+  const auto has_place = [](const LightPower& light) { return light.own > 0; };
+  // Paths that begin at the lights have no place to choose them for.
+  if (tables.integrator.from_lights || std::ranges::count_if(lights, has_place) < std::ptrdiff_t{kLightTreeFrom})
+    return;
+  build_light_tree(tables, lights);
 }
 
 }  // namespace norrsken

@@ -12,7 +12,7 @@ namespace {
 
 std::vector<LightRecord> chosen_by(const std::vector<double>& powers) {
   std::vector<LightRecord> lights(powers.size());
-  choose_lights(lights, powers);
+  fill_alias_table(lights, powers);
   return lights;
 }
 
@@ -68,7 +68,7 @@ TEST(LightChoice, WithoutAnyPowerAllAreAlike) {
   for (const double p : probabilities_of_table(lights)) EXPECT_EQ(p, 0.25);
 }
 
-TEST(LightChoice, NoLightsAreNoTrouble) { choose_lights({}, {}); }
+TEST(LightChoice, NoLightsAreNoTrouble) { fill_alias_table({}, {}); }
 
 TEST(LightChoice, HalfOfTheChoiceIsByPowerAndHalfIsEven) {
   const std::vector<LightPower> lights = {{.own = 9}, {.own = 1}, {.own = 0}};
@@ -87,9 +87,9 @@ TEST(LightChoice, WhatSurroundsTheSceneIsChosenAsOftenAsAllThatIsInIt) {
 }
 
 TEST(LightPower, IsLuminanceTimesAreaTimesSolidAngle) {
-  EXPECT_NEAR(surface_power(4, glm::dvec3(10)).own, 40 * std::numbers::pi, 1e-9);
-  EXPECT_NEAR(point_power(glm::dvec3(10)).own, 40 * std::numbers::pi, 1e-9);
-  EXPECT_NEAR(point_power({0, 10, 0}).own / (40 * std::numbers::pi), 0.7152, 1e-4);
+  EXPECT_NEAR(surface_power(4, glm::dvec3(10), {}).own, 40 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(point_power(glm::dvec3(10), {}).own, 40 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(point_power({0, 10, 0}, {}).own / (40 * std::numbers::pi), 0.7152, 1e-4);
   EXPECT_NEAR(environment_power(glm::dvec3(10)).per_cross_section, 40 * std::numbers::pi, 1e-9);
 }
 

@@ -9,56 +9,14 @@
 #include <optional>
 #include <random>
 
-#include "compile/compile_testing.h"
 #include "light/light_testing.h"
-#include "light/sample_lights.h"
+#include "light/lit_scene_testing.h"
 
 namespace norrsken::isa_host {
 namespace {
 
-using norrsken::testing::Compiled;
-
 constexpr double kPi2 = 2 * M_PI;
-const Mask kOn{true};
 const glm::dvec3 kReference(0.3, -0.2, 0.1);
-
-Vec3f lanes(const glm::dvec3& v) { return {float(v.x), float(v.y), float(v.z)}; }
-glm::dvec3 doubles(const Vec3f& v) { return {v.x.v, v.y.v, v.z.v}; }
-glm::dvec3 doubles(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
-
-/// A scene with one light, and the part of its view that lights look at.
-struct LitScene {
-  Compiled compiled;
-  SceneView view;
-
-  explicit LitScene(const std::string& elements, const norrsken::testing::Files& files = {})
-      : compiled(norrsken::testing::compile_elements(norrsken::testing::kSensor + norrsken::testing::kShape + elements,
-                                                     files)) {
-    for (const std::string& message : compiled.messages()) ADD_FAILURE() << message;
-    const SceneTables& t = compiled.tables();
-    view.lights = t.lights.data();
-    view.light_count = static_cast<std::uint32_t>(t.lights.size());
-    for (const LightRecord& light : t.lights) view.light_kinds |= 1u << static_cast<std::uint32_t>(light.kind);
-    view.analytics = t.analytics.data();
-    for (const AnalyticRecord& a : t.analytics) view.analytic_kinds |= 1u << static_cast<std::uint32_t>(a.kind);
-    view.shapes = t.shapes.data();
-    view.parameters = t.parameters.data();
-    view.texels = t.texels.data();
-    view.texture_kinds = t.texture_kinds;
-    view.environment = t.environment;
-    view.radius = t.radius;
-  }
-  const LightRecord& light() const { return view.lights[0]; }
-  LightSample sample(const glm::dvec3& reference, double u, double v) const {
-    return sample_one_light(view, lanes(reference), {Float(0.0f), Float(0.0f)}, {float(u), float(v)}, kOn).sample;
-  }
-  /// The irradiance that a delta light sends to a point of a plane with this normal.
-  double irradiance(const glm::dvec3& point, const glm::dvec3& normal) const {
-    const LightSample s = sample(point, 0.5, 0.5);
-    if (!s.valid.v) return 0;
-    return double{s.radiance.x.v} * std::max(0.0, glm::dot(normal, glm::normalize(doubles(s.point) - point)));
-  }
-};
 
 /// A mesh of these OBJ statements that shines.
 LitScene mesh_light(const std::string& obj) {
@@ -144,6 +102,60 @@ std::optional<double> distance(const LitScene& scene, const glm::dvec3& directio
   return b1 >= 0 && b2 >= 0 && inside ? std::optional(t) : std::nullopt;
 }
 
+/// Sampled directions against the density, and its integral.
+void expect_directions_follow_density(const LitScene& scene) {
+  const auto pdf = [&](const glm::dvec3& d) {
+    const auto t = distance(scene, d);
+    return t ? double{light_pdf_sa(scene.view, UInt(0u), lanes(kReference), lanes(d), float(*t), kOn).v} : 0.0;
+  };
+  constexpr int kRows = 24, kColumns = 48, kSamples = 200'000, kInner = 24;
+  std::vector<double> observed(kRows * kColumns), expected(kRows * kColumns);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(0, 1 - 1e-7);
+  for (int i = 0; i < kSamples; ++i) {
+    const double u = unit(random), v = unit(random);
+    const LightSample s = scene.sample(kReference, u, v);
+    ASSERT_TRUE(s.valid.v);
+    const glm::dvec3 d = glm::normalize(doubles(s.point) - kReference);
+    const int row = std::clamp(int((d.z + 1) / 2 * kRows), 0, kRows - 1);
+    const int column = std::clamp(int((std::atan2(d.y, d.x) / kPi2 + 0.5) * kColumns), 0, kColumns - 1);
+    ++observed[std::size_t(row * kColumns + column)];
+    if (i >= 1000) continue;
+    // Beside the edge of the light the ray may miss it.
+    if (const double of_direction = pdf(d); of_direction > 0) {
+      EXPECT_NEAR(double{s.pdf_sa.v}, of_direction, 2e-3 * of_direction) << u << " " << v;
+    }
+  }
+  double integral = 0;
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      double cell = 0;
+      for (int i = 0; i < kInner; ++i) {
+        for (int k = 0; k < kInner; ++k) {
+          const double z = (row + (i + 0.5) / kInner) / kRows * 2 - 1, r = std::sqrt(1 - z * z);
+          const double phi = ((column + (k + 0.5) / kInner) / kColumns - 0.5) * kPi2;
+          cell += pdf({r * std::cos(phi), r * std::sin(phi), z});
+        }
+      }
+      cell *= 4 * M_PI / (kRows * kColumns * kInner * kInner);
+      integral += cell;
+      expected[std::size_t(row * kColumns + column)] = cell * kSamples;
+    }
+  }
+  EXPECT_NEAR(integral, 1, 2e-3);
+  double chi2 = 0;
+  int cells = 0;
+  for (std::size_t i = 0; i < observed.size(); ++i) {
+    if (expected[i] < 10) continue;
+    chi2 += (observed[i] - expected[i]) * (observed[i] - expected[i]) / expected[i];
+    ++cells;
+  }
+  // Wilson and Hilferty's approximation.
+  const double n = cells - 1;
+  EXPECT_LT((std::cbrt(chi2 / n) - (1 - 2 / (9 * n))) / std::sqrt(2 / (9 * n)), 4.0)
+      << "chi2 " << chi2 << " of " << cells << " cells";
+}
+
 template <LightKind light_kind, class Model, bool is_delta>
 struct Case {
   static constexpr LightKind kKind = light_kind;
@@ -163,58 +175,13 @@ TYPED_TEST(EveryLight, DirectionsFollowTheDensity) {
   if constexpr (TypeParam::kDelta) {
     GTEST_SKIP() << "a delta has no density";
   } else {
-    const LitScene scene = scene_of(TypeParam::kKind);
-    const auto pdf = [&](const glm::dvec3& d) {
-      const auto t = distance(scene, d);
-      return t ? double{light_pdf_sa(scene.view, UInt(0u), lanes(kReference), lanes(d), float(*t), kOn).v} : 0.0;
-    };
-    constexpr int kRows = 24, kColumns = 48, kSamples = 200'000, kInner = 24;
-    std::vector<double> observed(kRows * kColumns), expected(kRows * kColumns);
-    std::mt19937_64 random(7);
-    std::uniform_real_distribution<double> unit(0, 1 - 1e-7);
-    for (int i = 0; i < kSamples; ++i) {
-      const double u = unit(random), v = unit(random);
-      const LightSample s = scene.sample(kReference, u, v);
-      ASSERT_TRUE(s.valid.v);
-      const glm::dvec3 d = glm::normalize(doubles(s.point) - kReference);
-      const int row = std::clamp(int((d.z + 1) / 2 * kRows), 0, kRows - 1);
-      const int column = std::clamp(int((std::atan2(d.y, d.x) / kPi2 + 0.5) * kColumns), 0, kColumns - 1);
-      ++observed[std::size_t(row * kColumns + column)];
-      if (i >= 1000) continue;
-      // Beside the edge of the light the ray may miss it.
-      if (const double of_direction = pdf(d); of_direction > 0) {
-        EXPECT_NEAR(double{s.pdf_sa.v}, of_direction, 2e-3 * of_direction) << u << " " << v;
-      }
-    }
-    double integral = 0;
-    for (int row = 0; row < kRows; ++row) {
-      for (int column = 0; column < kColumns; ++column) {
-        double cell = 0;
-        for (int i = 0; i < kInner; ++i) {
-          for (int k = 0; k < kInner; ++k) {
-            const double z = (row + (i + 0.5) / kInner) / kRows * 2 - 1, r = std::sqrt(1 - z * z);
-            const double phi = ((column + (k + 0.5) / kInner) / kColumns - 0.5) * kPi2;
-            cell += pdf({r * std::cos(phi), r * std::sin(phi), z});
-          }
-        }
-        cell *= 4 * M_PI / (kRows * kColumns * kInner * kInner);
-        integral += cell;
-        expected[std::size_t(row * kColumns + column)] = cell * kSamples;
-      }
-    }
-    EXPECT_NEAR(integral, 1, 2e-3);
-    double chi2 = 0;
-    int cells = 0;
-    for (std::size_t i = 0; i < observed.size(); ++i) {
-      if (expected[i] < 10) continue;
-      chi2 += (observed[i] - expected[i]) * (observed[i] - expected[i]) / expected[i];
-      ++cells;
-    }
-    // Wilson and Hilferty's approximation.
-    const double n = cells - 1;
-    EXPECT_LT((std::cbrt(chi2 / n) - (1 - 2 / (9 * n))) / std::sqrt(2 / (9 * n)), 4.0)
-        << "chi2 " << chi2 << " of " << cells << " cells";
+    expect_directions_follow_density(scene_of(TypeParam::kKind));
   }
+}
+
+TEST(EnvmapEnvironment, DirectionsFollowTheCompensatedDensity) {
+  expect_directions_follow_density(
+      LitScene(kEnvmap + R"(<boolean name="mis_compensation" value="true"/></emitter>)", environment_files()));
 }
 
 /// Densities of curved surfaces have no bound at their outline; their inverse has.
@@ -365,6 +332,49 @@ TEST(EnvmapEnvironment, LooksAlongTheDocumentedAxes) {
       EXPECT_NEAR(seen(d), 2 * texel(x, y), 1e-3 * 512) << x << " " << y;
     }
   }
+}
+
+const std::string kCompensated = kEnvmap + R"(<boolean name="mis_compensation" value="true"/></emitter>)";
+
+/// Half of the sphere of directions is left to surfaces, and yet nothing is lost.
+TEST(EnvmapEnvironment, CompensationLeavesTheDarkToOthersAndLosesNothing) {
+  const LitScene plain(kEnvmap + "</emitter>", environment_files()), compensated(kCompensated, environment_files());
+  const auto pdf = [&](const LitScene& scene, const glm::dvec3& d) {
+    return double{light_pdf_sa(scene.view, UInt(0u), lanes(kReference), lanes(d), 1.0f, kOn).v};
+  };
+  const auto seen = [&](const glm::dvec3& d) { return double{environment_radiance(plain.view, lanes(d), kOn).x.v}; };
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> unit(0, 1 - 1e-7);
+  const auto direction = [&] {
+    const double y = 2 * unit(random) - 1, r = std::sqrt(1 - y * y), phi = kPi2 * unit(random);
+    return glm::dvec3(r * std::cos(phi), y, r * std::sin(phi));
+  };
+  // Uniform directions against sampled light, by the power heuristic: the same mean, less noise.
+  constexpr int kSamples = 200'000;
+  double mean[2]{}, square[2]{}, dark = 0, expected = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const glm::dvec3 d = direction();
+    expected += seen(d) / kSamples;
+    dark += pdf(compensated, d) == 0 ? 1.0 / kSamples : 0;
+    const double u = unit(random), v = unit(random);
+    for (int k = 0; k < 2; ++k) {
+      const LitScene& scene = k == 0 ? plain : compensated;
+      const auto weight = [](double a, double b) { return a * a / (a * a + b * b); };
+      const double uniform = 1 / (4 * M_PI);
+      double value = seen(d) / uniform * weight(uniform, pdf(scene, d));
+      const LightSample s = scene.sample(kReference, u, v);
+      const double p = double{s.pdf_sa.v};
+      if (s.valid.v) value += double{s.radiance.x.v} / p * weight(p, uniform);
+      mean[k] += value / kSamples, square[k] += value * value / kSamples;
+    }
+  }
+  EXPECT_GT(dark, 0.5);
+  EXPECT_LT(dark, 0.99);
+  double deviation[2];
+  for (int k = 0; k < 2; ++k) deviation[k] = std::sqrt((square[k] - mean[k] * mean[k]) / kSamples);
+  EXPECT_LT(std::abs(mean[0] - mean[1]), 4 * std::hypot(deviation[0], deviation[1]));
+  EXPECT_NEAR(mean[1] / (4 * M_PI * expected), 1, 0.03);
+  EXPECT_LT(deviation[1], 0.95 * deviation[0]) << deviation[0] << " " << deviation[1];
 }
 
 TEST(EnvmapEnvironment, ItsMeanRadianceIsItsPower) {

@@ -24,7 +24,7 @@ void compile_emitter_point(Parameters& p, Builder& builder, std::uint32_t shape)
   light.kind = LightKind::point;
   set_values(light.origin, position);
   set_values(light.emission, intensity);
-  builder.add_light(light, point_power(intensity));
+  builder.add_light(light, point_power(intensity, {.lower = position, .upper = position}));
   builder.describe(p.node(), fmt::format("intensity {:.6g} {:.6g} {:.6g}", intensity.r, intensity.g, intensity.b));
 }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
 
@@ -43,7 +44,13 @@ void compile_emitter_projector(Parameters& p, Builder& builder, std::uint32_t sh
   block.add(half_width).add(half_height).add_word(texture ? texture->word : 0);
   light.parameters = builder.add_parameters(block.values());
   const glm::dvec3 mean = scale * (texture ? texture->mean : irradiance);
-  builder.add_light(light, projector_power(4 * half_width * half_height, mean));
+  // Nothing beyond the corners.
+  const LightBounds bounds{.lower = to_world[3],
+                           .upper = to_world[3],
+                           .axis = glm::normalize(linear[2]),
+                           .normals = std::atan(std::hypot(half_width, half_height)),
+                           .emission = 0};
+  builder.add_light(light, projector_power(4 * half_width * half_height, mean, bounds));
   builder.describe(p.node(), fmt::format("irradiance {:.6g} {:.6g} {:.6g}", mean.r, mean.g, mean.b));
 }
 

@@ -4,9 +4,11 @@
 #include "light/analytic_area.h"
 #include "light/constant.h"
 #include "light/directional.h"
+#include "light/directionalarea.h"
 #include "light/envmap.h"
 #include "light/flat_area.h"
 #include "light/light.h"
+#include "light/light_tree.h"
 #include "light/point.h"
 #include "light/projector.h"
 #include "light/sphere_area.h"
@@ -43,11 +45,16 @@ NORRSKEN_INLINE void add_light_kind(LightKind kind, bool is_delta, const SceneVi
 __attribute__((noinline)) inline LightChoice sample_one_of_many_lights(const SceneView& scene, const Vec3f& reference,
                                                                        Vec2f pick, Vec2f u, Mask active) {
   const Mask never = Float(1.0f) < Float(0.0f);
-  const UInt light = pick_light(scene, pick, active);
+  PickedLight picked;
+  if (scene.light_nodes != nullptr) {
+    picked = pick_light_by_place(scene, reference, pick, active);
+  } else {
+    picked.light = pick_light(scene, pick, active);
+    picked.prob = light_prob(scene, picked.light, active);
+  }
+  const UInt light = picked.light;
   const UInt kinds = gather_light_kind(scene, light, active);
-  LightChoice choice{{reference, Float(1.0f), {Float(0.0f), Float(0.0f), Float(0.0f)}, never},
-                     light_prob(scene, light, active),
-                     never};
+  LightChoice choice{{reference, Float(1.0f), {Float(0.0f), Float(0.0f), Float(0.0f)}, never}, picked.prob, never};
 #define NORRSKEN_LIGHT(kind, Model, is_delta)                                  \
   if (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind))) \
     add_light_kind<Model>(LightKind::kind, is_delta, scene, light, kinds, reference, u, active, choice);
@@ -86,6 +93,7 @@ inline Float light_pdf_sa(const SceneView& scene, UInt light, const Vec3f& refer
   }
 #include "light/list.def"
 #undef NORRSKEN_LIGHT
+  if (scene.light_nodes != nullptr) return pdf * light_prob_by_place(scene, light, reference, active);
   return pdf * light_prob(scene, light, active);
 }
 

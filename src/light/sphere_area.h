@@ -6,7 +6,7 @@
 // Departures  1 - cos of the cone is computed without cancellation, so small far spheres stay exact
 #pragma once
 
-#include "light/emit.h"
+#include "light/area_point.h"
 #include "shape/sphere.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -82,15 +82,17 @@ struct SphereAreaLight {
                   zero_unless(light.edge1.y > Float(0.0f), area_pdf));
   }
 
-  /// Uniform over the area, cosine-weighted over directions.
   static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f position, Vec2f direction,
                                          Mask active) {
+    return emit_from_surface(sample_area(scene, light, position, active), light.area, direction);
+  }
+
+  static NORRSKEN_INLINE AreaPoint sample_area(const SceneView& scene, const Light& light, Vec2f u, Mask active) {
     const Float radius = light.edge1.x;
-    const Vec3f outward = warp_to_sphere(position);
+    const Vec3f outward = warp_to_sphere(u);
     const Vec3f normal = outward * select(light.edge1.y > Float(0.0f), Float(-1.0f), Float(1.0f));
     const Vec3f point = fma(outward, radius, light.origin);
-    return emit_from_surface(point, normal, largest(point) + radius, light.area,
-                             radiance_at(scene, light, outward, active), direction, active);
+    return {point, normal, radiance_at(scene, light, outward, active), largest(point) + radius, active};
   }
 
  private:

@@ -11,9 +11,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "compile/field_of_view.h"
 #include "compile/plugins.h"
 #include "light/light_host.h"
 
@@ -44,7 +46,14 @@ void compile_emitter_spot(Parameters& p, Builder& builder, std::uint32_t shape) 
   set_values(light.emission, intensity);
   set_axes(light, glm::inverse(glm::dmat3(to_world)));
   light.parameters = builder.add_parameters(block.values());
-  builder.add_light(light, spot_power(texture ? intensity * texture->mean : intensity, beam, cutoff));
+  LightBounds bounds{.lower = to_world[3], .upper = to_world[3]};
+  const double length = glm::length(to_world[2]);
+  // Where the cone keeps its shape, it is known what is outside.
+  if (keeps_lengths(glm::dmat3(to_world) / length)) {
+    bounds.axis = glm::dvec3(to_world[2]) / length;
+    bounds.normals = beam, bounds.emission = cutoff - beam;
+  }
+  builder.add_light(light, spot_power(texture ? intensity * texture->mean : intensity, beam, cutoff, bounds));
   builder.describe(p.node(), fmt::format("intensity {:.6g} {:.6g} {:.6g}", intensity.r, intensity.g, intensity.b));
 }
 

@@ -83,6 +83,10 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   std::copy_n(tables.center, 3, view.center);
   view.radius = tables.radius;
   view.lights = tables.lights.data();
+  view.light_nodes = tables.light_nodes.empty() ? nullptr : tables.light_nodes.data();
+  view.light_leaves = tables.light_leaves.data();
+  view.lights_around = tables.lights_around.data();
+  view.lights_around_count = static_cast<std::uint32_t>(tables.lights_around.size());
   view.primitive_lights = tables.primitive_lights.data();
   view.triangle_count = tables.triangle_count();
   view.sphere_count = tables.sphere_count();

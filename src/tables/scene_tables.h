@@ -135,6 +135,21 @@ struct LightRecord {
   std::uint32_t parameters = kNone;
 };
 
+inline constexpr std::uint32_t kLightLeafBit = 0x80000000u;
+
+/// A node of the tree over the lights that have a place (src/light/light_tree.h): what bounds them, and what they send.
+/// Gathered field by field. Node 0 is the root; siblings stand side by side, the left one first.
+struct LightNode {
+  float center[3];
+  float radius2;  ///< of a sphere around them, squared
+  float axis[3];  ///< unit; of a cone that holds all normals
+  float cos_normals, sin_normals;
+  float slope, shift;     ///< slope cos(angle) - shift: 1 along a normal, 0 where emission ends
+  float intensity;        ///< where they face, in units of the whole
+  std::uint32_t content;  ///< the left child; or with kLightLeafBit the one light
+  std::uint32_t parent;
+};
+
 /// Camera models as kernels tell them apart.
 enum class CameraKind : std::uint32_t {
 #define NORRSKEN_CAMERA(kind, Model) kind,
@@ -229,6 +244,9 @@ struct SceneTables {
   /// By primitive of the shapes that are lights, an index into `lights`.
   std::vector<std::uint32_t> primitive_lights;
   std::vector<LightRecord> lights;
+  std::vector<LightNode> light_nodes;        ///< empty where lights are chosen by power alone
+  std::vector<std::uint32_t> light_leaves;   ///< by light, its leaf among the nodes, or kNone
+  std::vector<std::uint32_t> lights_around;  ///< chosen beside the tree
   std::uint32_t bsdf_kinds = 0;        ///< bit k: a material of BsdfKind k was made; it may be behind another one
   std::uint32_t material_choices = 0;  ///< the most that stand one behind the other before a model
   std::uint32_t texture_kinds = 0;     ///< bit k: TextureKind k occurs

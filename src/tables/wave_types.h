@@ -26,10 +26,14 @@ struct SceneView {
   const float* texels = nullptr;
   const float* texcoords = nullptr;  ///< null if no shape has any
   const LightRecord* lights = nullptr;
+  const LightNode* light_nodes = nullptr;  ///< null where lights are chosen by power alone
+  const std::uint32_t* light_leaves = nullptr;
+  const std::uint32_t* lights_around = nullptr;
   const std::uint32_t* primitive_lights = nullptr;
   const AnalyticRecord* analytics = nullptr;
   const InstanceRecord* instances = nullptr;
   std::uint32_t triangle_count = 0, sphere_count = 0, light_count = 0, instance_count = 0;
+  std::uint32_t lights_around_count = 0;
   std::uint32_t first_analytic = kNone;  ///< primitive; kNone if there is none
   std::uint32_t analytic_kinds = 0;      ///< bit k: AnalyticKind k occurs
   std::uint32_t bsdf_kinds = 0;          ///< bit k: BsdfKind k occurs

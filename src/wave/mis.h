@@ -1,8 +1,9 @@
-// Multiple importance sampling of one estimator with n samples against one with a single sample.
+// Multiple importance sampling of light: shadow rays to sampled lights against sampled directions that find lights.
 // Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, eq. 9.13 (power heuristic, beta 2).
 #pragma once
 
-#include "simd/lanes.h"
+#include "light/sample_lights.h"
+#include "wave/records.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -11,6 +12,16 @@ NORRSKEN_INLINE Float power_heuristic(Float count, Float pdf, Float other_count,
   // As a ratio, so that squares of large densities do not overflow.
   const Float ratio = (other_count * other) / (count * pdf);
   return Float(1.0f) / fma(ratio, ratio, Float(1.0f));
+}
+
+/// The weight of what a ray found on `light`, `distance` away: 1 where no light sampling competes with it.
+NORRSKEN_INLINE Float weight_of_found(const SceneView& scene, UInt light, const Ray& ray, Float distance, Mask active) {
+  const Mask competed = active & (ray.pdf_sa > Float(0.0f));
+  if (none(competed)) return Float(1.0f);
+  const Float light_samples(static_cast<float>(scene.integrator.emitter_samples));
+  const Float bsdf_samples(static_cast<float>(scene.integrator.bsdf_samples));
+  const Float light_pdf = light_pdf_sa(scene, light, ray.origin, ray.direction, distance, competed);
+  return select(competed, power_heuristic(bsdf_samples, ray.pdf_sa, light_samples, light_pdf), Float(1.0f));
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

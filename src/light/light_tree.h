@@ -1,0 +1,126 @@
+// Choosing among many lights by where the reference point is: down a binary tree over the lights that have a place,
+// each time to a child by what its lights might send there, told from their bounds. Lights that surround the scene
+// stand beside the tree and keep their shares.
+//
+// Source      Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018: the
+//             importance of a node (section 4), bounds and tree; one light by one path down the tree as in Pharr, Jakob,
+//             Humphreys, "Physically Based Rendering", 4th ed., section 12.6.3
+// Departures  no node is split into several samples, and the normal at the reference point is left out, for a ray that
+//             finds a light by itself does not know it. Importance is continuous in the reference point and nowhere 0:
+//             the angle that bounds subtend widens to a half turn at their surface, emission ends in a slope, and what
+//             shines away keeps kLeastFacing. So a light's probability at a surface point and at the origin of a ray
+//             that leaves it, which are a rounding bound apart, are the same within rounding, and no light is lost.
+#pragma once
+
+#include <cstddef>
+
+#include "light/light.h"
+
+namespace norrsken::NORRSKEN_ISA {
+
+/// What is left of a node's importance where its lights shine away.
+inline constexpr float kLeastFacing = 1e-3f;
+
+/// Field `offset` (in bytes) of nodes.
+NORRSKEN_INLINE Float gather_node(const SceneView& scene, std::size_t offset, UInt node, Mask active) {
+  const auto* base = reinterpret_cast<const float*>(scene.light_nodes) + offset / sizeof(float);
+  return gather(base, node * UInt(sizeof(LightNode) / sizeof(float)), active);
+}
+NORRSKEN_INLINE Vec3f gather_node3(const SceneView& scene, std::size_t offset, UInt node, Mask active) {
+  const auto* base = reinterpret_cast<const float*>(scene.light_nodes) + offset / sizeof(float);
+  return gather3(base, node * UInt(sizeof(LightNode) / sizeof(float)), active);
+}
+
+/// An angle from 0 to pi.
+struct Angle {
+  Float cos, sin;
+};
+NORRSKEN_INLINE Float sine_of(Float cosine) { return sqrt(max(fnma(cosine, cosine, Float(1.0f)), Float(0.0f))); }
+/// a - b, or 0 if b is larger.
+NORRSKEN_INLINE Angle less(const Angle& a, const Angle& b) {
+  const Mask nothing = a.cos >= b.cos;
+  return {select(nothing, Float(1.0f), fma(a.cos, b.cos, a.sin * b.sin)),
+          select(nothing, Float(0.0f), fms(a.sin, b.cos, a.cos * b.sin))};
+}
+
+/// Intensity over squared distance, times how far the lights of the node may face the reference point.
+NORRSKEN_INLINE Float light_importance(const SceneView& scene, UInt node, const Vec3f& reference, Mask active) {
+  const auto number = [&](std::size_t offset) { return gather_node(scene, offset, node, active); };
+  const Vec3f from = reference - gather_node3(scene, offsetof(LightNode, center), node, active);
+  const Vec3f axis = gather_node3(scene, offsetof(LightNode, axis), node, active);
+  const Float radius2 = number(offsetof(LightNode, radius2)), distance2 = max(dot(from, from), radius2);
+  const Float inverse = Float(1.0f) / sqrt(distance2), one(1.0f);
+  // sin^2 of the angle under which the bounds' radius is seen. Its fourth power takes the cosine to -1 at the surface.
+  const Float seen2 = min(radius2 * inverse * inverse, one);
+  const Float cos_seen = fnma(seen2, seen2, sqrt(one - seen2));
+  const Float cos_axis = min(max(dot(axis, from) * inverse, -one), one);
+  const Angle off_normals = less({cos_axis, sine_of(cos_axis)},
+                                 {number(offsetof(LightNode, cos_normals)), number(offsetof(LightNode, sin_normals))});
+  const Angle least = less(off_normals, {cos_seen, sine_of(cos_seen)});
+  const Float facing = fms(least.cos, number(offsetof(LightNode, slope)), number(offsetof(LightNode, shift)));
+  return number(offsetof(LightNode, intensity)) * inverse * inverse * max(facing, Float(kLeastFacing));
+}
+
+/// The probability of a child of importance a whose sibling has b.
+NORRSKEN_INLINE Float child_prob(Float a, Float b) {
+  const Float sum = a + b;
+  return select(sum > Float(0.0f), a / sum, Float(0.5f));
+}
+
+/// The share of the tree and of each light around the scene.
+NORRSKEN_INLINE Float tree_share(const SceneView& scene) {
+  return Float(1.0f / static_cast<float>(scene.lights_around_count + 1));
+}
+
+struct PickedLight {
+  UInt light;
+  Float prob;
+};
+
+/// The two numbers take turns, so that neither runs out of bits.
+inline PickedLight pick_light_by_place(const SceneView& scene, const Vec3f& reference, Vec2f u, Mask active) {
+  UInt around(0u);
+  Mask in_tree = active;
+  if (scene.lights_around_count > 0) {
+    const auto count = static_cast<float>(scene.lights_around_count);
+    const Float scaled = u.x * Float(count + 1);
+    const UInt cell = to_uint(min(scaled, Float(count)));
+    in_tree &= cell == UInt(scene.lights_around_count);
+    around = gather_uint(reinterpret_cast<const float*>(scene.lights_around), cell, active & !in_tree);
+    u.x = scaled - to_float(cell);
+  }
+  constexpr std::size_t kContent = offsetof(LightNode, content);
+  UInt content = bits(gather_node(scene, kContent, UInt(0u), in_tree));
+  Float prob = tree_share(scene);
+  const auto inner = [&] { return in_tree & ((content & UInt(kLightLeafBit)) == UInt(0u)); };
+  for (Mask open = inner(); any(open); open = inner()) {
+    const UInt left = select(open, content, UInt(0u)), right = left + UInt(1u);
+    const Float a = light_importance(scene, left, reference, open), b = light_importance(scene, right, reference, open);
+    const Float p = child_prob(a, b);
+    const Mask first = u.x < p;
+    const Float rest = select(first, u.x / p, (u.x - p) / (Float(1.0f) - p));
+    u = {u.y, min(rest, Float(0x1.fffffep-1f))};
+    prob = select(open, prob * select(first, p, child_prob(b, a)), prob);
+    content = select(open, bits(gather_node(scene, kContent, select(first, left, right), open)), content);
+  }
+  return {select(in_tree, content & UInt(~kLightLeafBit), around), prob};
+}
+
+/// The probability with which `pick_light_by_place` finds the light. Not inlined: most scenes have few lights.
+__attribute__((noinline)) inline Float light_prob_by_place(const SceneView& scene, UInt light, const Vec3f& reference,
+                                                           Mask active) {
+  UInt node = gather_uint(reinterpret_cast<const float*>(scene.light_leaves), light, active);
+  const Mask in_tree = active & (node != UInt(kNone));
+  Float prob = select(in_tree, tree_share(scene), light_prob(scene, light, active));
+  for (Mask open = in_tree & (node != UInt(0u)); any(open); open &= node != UInt(0u)) {
+    // Siblings are 2k + 1 and 2k + 2.
+    const UInt sibling = ((node + UInt(1u)) ^ UInt(1u)) - UInt(1u);
+    const Float a = light_importance(scene, node, reference, open),
+                b = light_importance(scene, sibling, reference, open);
+    prob = select(open, prob * child_prob(a, b), prob);
+    node = select(open, bits(gather_node(scene, offsetof(LightNode, parent), node, open)), node);
+  }
+  return prob;
+}
+
+}  // namespace norrsken::NORRSKEN_ISA
