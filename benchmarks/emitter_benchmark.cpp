@@ -40,9 +40,6 @@ const std::map<std::string, const char*> kScenes = {
     {"directional", R"(<emitter type="directional"><vector name="direction" x="0" y="0" z="-1"/></emitter>)"},
     {"constant", R"(<emitter type="constant"/>)"},
     {"envmap", R"(<emitter type="envmap"><string name="filename" value="sky.hdr"/></emitter>)"},
-    {"directionalarea",
-     R"(<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/><translate z="3"/>
-                </transform><emitter type="directionalarea"/></shape>)"},
 };
 
 /// A sky of 512 x 256 texels that brightens upwards, with a small sun.
