@@ -247,12 +247,12 @@ struct SceneTables {
   std::vector<LightNode> light_nodes;        ///< empty where lights are chosen by power alone
   std::vector<std::uint32_t> light_leaves;   ///< by light, its leaf among the nodes, or kNone
   std::vector<std::uint32_t> lights_around;  ///< chosen beside the tree
-  std::uint32_t bsdf_kinds = 0;        ///< bit k: a material of BsdfKind k was made; it may be behind another one
-  std::uint32_t material_choices = 0;  ///< the most that stand one behind the other before a model
-  std::uint32_t texture_kinds = 0;     ///< bit k: TextureKind k occurs
-  bool needs_uv = false;               ///< some model looks at texture coordinates or tangents
-  std::uint32_t environment = kNone;   ///< index of the light that rays to nowhere see
-  float center[3] = {};                ///< of a sphere around all surfaces
+  std::uint32_t bsdf_kinds = 0;              ///< bit k: a material of BsdfKind k was made; it may be behind another one
+  std::uint32_t material_choices = 0;        ///< the most that stand one behind the other before a model
+  std::uint32_t texture_kinds = 0;           ///< bit k: TextureKind k occurs
+  bool needs_uv = false;                     ///< some model looks at texture coordinates or tangents
+  std::uint32_t environment = kNone;         ///< index of the light that rays to nowhere see
+  float center[3] = {};                      ///< of a sphere around all surfaces
   float radius = 0;
   CameraRecord camera{};
   FilmSettings film;
