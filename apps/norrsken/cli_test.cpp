@@ -183,6 +183,27 @@ TEST_F(Cli, SeedAndThreadsDecideAsPromised) {
   EXPECT_NE(one, render("seed.exr", {"--seed", "1"}));
 }
 
+TEST_F(Cli, ReplaysOneSample) {
+  const std::vector<std::string> one = {"render", "hexagon_room", "-Dshadow_rays=1", "--size", "40x30", "--spp",
+                                        "1",      "--sampler",    "independent",     "--isa",  "scalar"};
+  ASSERT_EQ(run(one + std::vector<std::string>{"-o", "a.exr", "--seed", "3"}).status, 0);
+  Image image;
+  ASSERT_TRUE(read_image((folder_ / "a.exr").string(), image));
+  const ProcessResult text = run(one + std::vector<std::string>{"--seed", "3", "--pixel", "12,20", "--trace"});
+  EXPECT_EQ(text.status, 0);
+  EXPECT_THAT(text.out, AllOf(StartsWith("sample 0 of pixel 12, 20\n"), HasSubstr("\n  1  ray from (-0.99, "),
+                              HasSubstr("light sample for diffuse"), HasSubstr("radiance (")));
+  const ProcessResult object = run(one + std::vector<std::string>{"--seed", "3", "--pixel", "12,20", "--json"});
+  const std::vector<float> radiance = parse_lines(object.out).at(0)["radiance"];
+  const char* names[] = {"R", "G", "B"};
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_FLOAT_EQ(radiance.at(k), image.find(names[k])->values[20 * 40 + 12]) << names[k];
+  EXPECT_EQ(run(one + std::vector<std::string>{"--pixel", "40,20"}).status, 64);
+  EXPECT_EQ(run(one + std::vector<std::string>{"--pixel", "12"}).status, 64);
+  EXPECT_EQ(run(one + std::vector<std::string>{"--trace"}).status, 64);
+  EXPECT_EQ(run(one + std::vector<std::string>{"--pixel", "1,1", "-o", "b.exr"}).status, 64);
+}
+
 TEST_F(Cli, QuietPrintsNothing) {
   const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "--quiet"} + kShort);
   EXPECT_EQ(result.status, 0);

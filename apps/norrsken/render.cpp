@@ -9,6 +9,7 @@
 #include "console.h"
 #include "interrupt.h"
 #include "progress.h"
+#include "replay.h"
 #include "session.h"
 #include "text_format.h"
 
@@ -19,6 +20,7 @@ struct Arguments {
   SceneArguments scene;
   MachineArguments machine;
   ToneArguments tone;
+  ReplayArguments replay;
   std::vector<std::string> outputs;
   std::uint64_t seed = 0;
   std::string samples, checkpoint, checkpoint_every = "60s";
@@ -96,7 +98,7 @@ void tell_start(const Arguments& arguments, const SceneInfo& info) {
 }
 
 /// Samples that were left out because they were not finite.
-void tell_dropped(const RenderStatistics& statistics) {
+void tell_dropped(const Arguments& arguments, const RenderStatistics& statistics) {
   if (statistics.dropped_samples == 0) return;
   std::string where;
   for (const DroppedSample& dropped : statistics.dropped)
@@ -104,6 +106,11 @@ void tell_dropped(const RenderStatistics& statistics) {
   const bool more = statistics.dropped_samples > statistics.dropped.size();
   print_warning(fmt::format("{} sample{} left out, being infinite or not a number:{}{}", statistics.dropped_samples,
                             statistics.dropped_samples == 1 ? " was" : "s were", where, more ? ", ..." : ""));
+  // Light paths belong to no pixel.
+  if (statistics.dropped.empty() || !statistics.samples_of_pixels) return;
+  const DroppedSample& first = statistics.dropped.front();
+  print_note(fmt::format("what became of the first: {}",
+                         replay_command(arguments.scene, arguments.seed, statistics, first.x, first.y, first.sample)));
 }
 
 /// Writes every file that can be written, tells what is wrong with the others, and returns those written.
@@ -178,7 +185,19 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
     print_note("interrupted" + advice);
 }
 
+ExitStatus replay(const Arguments& arguments) {
+  if (!arguments.outputs.empty() || !arguments.checkpoint.empty() || !arguments.samples.empty())
+    throw Failure(ExitStatus::usage,
+                  "--pixel prints one sample: -o, --checkpoint and --samples have no place beside it");
+  const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet);
+  RenderOptions options;
+  arguments.machine.apply_to(options);
+  options.seed = arguments.seed;
+  return replay(scene, options, arguments.replay, arguments.json);
+}
+
 ExitStatus render(Arguments arguments) {
+  if (arguments.replay.wanted()) return replay(arguments);
   if (!arguments.samples.empty() && arguments.checkpoint.empty())
     throw Failure(ExitStatus::usage, "--samples needs --checkpoint FILE, which receives what 'norrsken merge' joins");
   // A part of the samples is there to be merged, and only shown if that is asked for.
@@ -213,7 +232,7 @@ ExitStatus render(Arguments arguments) {
   std::vector<std::string> written;
   if (statistics.has_image) written = write_outputs(arguments, *rendering);
   if (!statistics.checkpoint_error.empty()) print_error(statistics.checkpoint_error);
-  if (!arguments.quiet) tell_dropped(statistics);
+  if (!arguments.quiet) tell_dropped(arguments, statistics);
   tell_done(arguments, info, statistics, written);
   const bool all_written = !statistics.has_image || written.size() == arguments.outputs.size();
   if (!all_written || !statistics.checkpoint_error.empty()) return ExitStatus::io_error;
@@ -256,6 +275,7 @@ void add_render_command(CLI::App& app, Action& action) {
   command->add_flag("--features", arguments->features,
                     "Add depth, normal, albedo and object id of the first hits too (implies --layers)");
   arguments->tone.add_to(*command);
+  arguments->replay.add_to(*command);
   auto* quiet = command->add_flag("--quiet", arguments->quiet, "Print errors only");
   command->add_flag("--json", arguments->json, "Print one JSON object a line on stdout: start, progress, done")
       ->excludes(quiet);
@@ -269,7 +289,8 @@ void add_render_command(CLI::App& app, Action& action) {
       "  norrsken render hexagon_room -Dlight=point -Dshadow_rays=1 -o a.exr -o a.png --layers\n"
       "  norrsken render room.xml --size 1920x1080 --json\n"
       "  norrsken render room.xml --spp 4096 --checkpoint room.ckpt --checkpoint-every 10m\n"
-      "  norrsken render room.xml --samples 0:512 --checkpoint a.part");
+      "  norrsken render room.xml --samples 0:512 --checkpoint a.part\n"
+      "  norrsken render room.xml --pixel 12,40 --sample 3 --trace");
   command->group("Commands");
   command->callback([&action, arguments] { action = [arguments] { return render(*arguments); }; });
 }

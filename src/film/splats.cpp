@@ -22,7 +22,8 @@ void Splats::cover(double position, std::uint32_t size, Footprint& footprint) co
     return;
   }
   const float *nodes = filter_.data(), *values = nodes + record.nodes;
-  const float* integrals = nodes + 3 * record.nodes + (record.cells + 1) + (record.edges + 1);  // those with signs
+  const float* integrals =
+      nodes + std::size_t{3} * record.nodes + (record.cells + 1) + (record.edges + 1);  // those with signs
   const auto integral_to_edge = [&](std::uint32_t pixels) {
     return static_cast<double>(integrals[settings_.sample_border ? record.edges : std::min(pixels, record.edges)]);
   };

@@ -144,6 +144,7 @@ class RenderSession final : public Render {
     s.relative_error = film_.error({0, 0, film_.width(), film_.height()}).relative();
     s.isa = kernels_.name;
     s.lanes = static_cast<int>(kernels_.lanes);
+    s.samples_of_pixels = !view_.integrator.from_lights;
     s.accelerator = accel_name(view_.accel.kind);
     if (on_progress) {
       RenderProgress last = progress();
