@@ -146,7 +146,7 @@ TEST(SdfGridHost, AsALightIsFoundByRaysAlone) {
       {{"a.vol", kGrid}});
   ASSERT_THAT(c.messages(), IsEmpty());
   ASSERT_EQ(c.tables().lights.size(), 2u);
-  const std::uint32_t light = c.tables().surfaces.at(0).light;
+  const std::uint32_t light = c.tables().light_of(0);
   ASSERT_LT(light, 2u);
   EXPECT_EQ(c.tables().lights[light].kind, LightKind::analytic);
   EXPECT_EQ(c.tables().lights[light].prob, 0);

@@ -62,14 +62,14 @@ TEST_P(TracedPath, IsThatOfTheImage) {
 
 TEST(TracedPathErrors, AreTold) {
   Diagnostics diagnostics;
-  const Scene scene = load("hexagon_room", {.width = 20, .height = 20});
+  const Scene scene = load("hexagon_room", {.parameters = {}, .width = 20, .height = 20});
   EXPECT_FALSE(trace_path(scene, {}, 20, 3, 0, diagnostics));
   ASSERT_EQ(diagnostics.all().size(), 1u);
   EXPECT_EQ(diagnostics.all()[0].message, "there is no pixel 20, 3");
   EXPECT_EQ(diagnostics.all()[0].accepted, "0, 0 to 19, 19");
 
   Diagnostics of_lights;
-  const Scene particles = load("hexagon_room", {.integrator = "ptracer", .width = 20, .height = 20});
+  const Scene particles = load("hexagon_room", {.parameters = {}, .integrator = "ptracer", .width = 20, .height = 20});
   EXPECT_FALSE(trace_path(particles, {}, 0, 0, 0, of_lights));
   ASSERT_EQ(of_lights.all().size(), 1u);
   EXPECT_EQ(of_lights.all()[0].message, "the paths of integrator 'ptracer' begin at the lights and belong to no pixel");
