@@ -60,7 +60,7 @@ struct RenderStatistics {
   std::uint64_t shadow_rays = 0;      ///< rays asked whether anything is in between
   std::uint64_t dropped_samples = 0;
   std::vector<DroppedSample> dropped;  ///< the first few of them
-  bool samples_of_pixels = true;       ///< false: paths begin at the lights, and a sample's pixel is where it is counted
+  bool samples_of_pixels = true;  ///< false: paths begin at the lights, and a sample's pixel is where it is counted
   double seconds = 0;
   double relative_error = -1;
   bool cancelled = false;
