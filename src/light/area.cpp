@@ -21,6 +21,7 @@ void compile_emitter_area(Parameters& p, Builder& builder, std::uint32_t shape) 
     return;
   }
   for (AreaLight& light : area_lights(builder, shape, texture)) {
+    refuse_as_beginning(light, p, builder);
     set_values(light.record.emission, radiance);
     // A light without power is never chosen.
     const double area = light.sampled ? double{light.record.area} : 0;

@@ -230,6 +230,15 @@ std::vector<AreaLight> analytic_lights(Builder& builder, std::span<const Surface
 
 }  // namespace
 
+void refuse_as_beginning(const AreaLight& light, const Parameters& emitter, Builder& builder) {
+  if (light.sampled || !builder.tables().integrator.from_lights) return;
+  builder.diagnostics().error(
+      emitter.node().plugin_location,
+      "paths cannot begin at the shape around this emitter, whose surface has no way to be sampled, as those of "
+      "integrator 'ptracer' do",
+      "another integrator, or another shape");
+}
+
 std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, TextureWord texture, bool along_normals) {
   const auto surfaces = builder.surfaces_of(shape);
   const ShapeRecord& record = builder.tables().shapes[shape];

@@ -22,4 +22,7 @@ struct AreaLight {
 std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, TextureWord texture,
                                    bool along_normals = false);
 
+/// An error for emitters of lights that only rays find, if paths are to begin at them.
+void refuse_as_beginning(const AreaLight& light, const Parameters& emitter, Builder& builder);
+
 }  // namespace norrsken

@@ -46,6 +46,7 @@ void compile_emitter_directionalarea(Parameters& p, Builder& builder, std::uint3
                                   "integrator 'ptracer', whose paths begin at the lights");
   }
   for (AreaLight& light : area_lights(builder, shape, texture, /*along_normals=*/true)) {
+    refuse_as_beginning(light, p, builder);
     set_values(light.record.emission, radiance);
     light.record.kind = along_normals(light.record.kind);
     // A light without power is never chosen.

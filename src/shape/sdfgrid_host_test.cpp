@@ -153,5 +153,14 @@ TEST(SdfGridHost, AsALightIsFoundByRaysAlone) {
   EXPECT_NE(c.tables().surfaces.at(0).material_front & kEmitsBit, 0u);
 }
 
+TEST(SdfGridHost, PathsCannotBeginAtIt) {
+  const Compiled c = compile_elements(
+      R"(<integrator type="ptracer"/>)" + std::string(kSensor) + kEmitter +
+          R"(<shape type="sdfgrid"><string name="filename" value="a.vol"/><emitter type="area"/></shape>)",
+      {{"a.vol", kGrid}});
+  ASSERT_EQ(c.messages().size(), 1u);
+  EXPECT_THAT(c.messages()[0], HasSubstr("paths cannot begin at the shape around this emitter"));
+}
+
 }  // namespace
 }  // namespace norrsken::testing
