@@ -26,6 +26,13 @@ struct Arguments {
   std::string samples, checkpoint, checkpoint_every = "60s";
   bool layers = false, features = false, quiet = false, json = false;
 
+  /// What decides a sample, and the machine that takes it.
+  RenderOptions sampling() const {
+    RenderOptions options;
+    machine.apply_to(options);
+    options.seed = seed;
+    return options;
+  }
   Verbosity verbosity() const { return quiet ? Verbosity::quiet : json ? Verbosity::json : Verbosity::text; }
 };
 
@@ -190,10 +197,7 @@ ExitStatus replay(const Arguments& arguments) {
     throw Failure(ExitStatus::usage,
                   "--pixel prints one sample: -o, --checkpoint and --samples have no place beside it");
   const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet);
-  RenderOptions options;
-  arguments.machine.apply_to(options);
-  options.seed = arguments.seed;
-  return replay(scene, options, arguments.replay, arguments.json);
+  return replay(scene, arguments.sampling(), arguments.replay, arguments.json);
 }
 
 ExitStatus render(Arguments arguments) {
@@ -209,9 +213,7 @@ ExitStatus render(Arguments arguments) {
 
   const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet, outputs);
   const SceneInfo info = scene.info();
-  RenderOptions options;
-  arguments.machine.apply_to(options);
-  options.seed = arguments.seed;
+  RenderOptions options = arguments.sampling();
   options.features = arguments.features;
   if (!arguments.samples.empty()) options.samples = parse_samples(arguments.samples);
   options.checkpoint = arguments.checkpoint;

@@ -305,7 +305,8 @@ Resumption resume_render(const std::string& path, const Traits& traits, Work& wo
                          Diagnostics& diagnostics) {
   const std::string older = older_generation_of(path);
   std::string damage, older_damage;
-  switch (attempt(path, traits, work, film, damage, diagnostics)) {
+  const Attempt newest = attempt(path, traits, work, film, damage, diagnostics);
+  switch (newest) {
     case Attempt::resumed:
       return Resumption::newest;
     case Attempt::refused:
@@ -316,7 +317,6 @@ Resumption resume_render(const std::string& path, const Traits& traits, Work& wo
     case Attempt::damaged:
       break;
   }
-  const bool is_missing = damage == "is missing";
   switch (attempt(older, traits, work, film, older_damage, diagnostics)) {
     case Attempt::resumed:
       diagnostics.warning(place(path), "the checkpoint " + damage + "; going on with the older " + quoted(older));
@@ -324,7 +324,7 @@ Resumption resume_render(const std::string& path, const Traits& traits, Work& wo
     case Attempt::refused:
       return Resumption::refused;
     case Attempt::missing:
-      if (is_missing) return Resumption::none;
+      if (newest == Attempt::missing) return Resumption::none;
       diagnostics.error(place(path), "the checkpoint " + damage + ", and there is no older one",
                         "an intact checkpoint, or none: remove the file to begin anew");
       return Resumption::refused;
