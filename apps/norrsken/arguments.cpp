@@ -115,6 +115,13 @@ std::optional<double> parse_duration(const std::string& text) {
   return std::nullopt;
 }
 
+std::optional<double> parse_share(const std::string& text) {
+  const bool is_percent = text.ends_with('%');
+  const auto number = parse_number<double>(std::string_view(text).substr(0, text.size() - (is_percent ? 1 : 0)));
+  const double share = number.value_or(0) / (is_percent ? 100 : 1);
+  return share > 0 && share < 1 ? std::optional(share) : std::nullopt;
+}
+
 std::optional<SampleRange> parse_samples(const std::string& text) {
   const auto colon = text.find(':');
   if (colon == std::string::npos) return std::nullopt;
@@ -182,6 +189,15 @@ CLI::Validator duration() {
   return CLI::Validator(
       [](const std::string& text) {
         return parse_duration(text) ? std::string() : found(text, "a time with its unit, as in 90s, 1.5m or 2h");
+      },
+      "");
+}
+
+CLI::Validator share() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return parse_share(text) ? std::string()
+                                 : found(text, "a share greater than 0 and less than 1, as in 1% or 0.01");
       },
       "");
 }

@@ -29,6 +29,8 @@ std::pair<int, int> parse_size(const std::string& text);
 
 /// "90s", "1.5m", "2h": seconds, greater than 0; empty if it is anything else.
 std::optional<double> parse_duration(const std::string& text);
+/// "1%", "0.01": a share greater than 0 and less than 1; empty if it is anything else.
+std::optional<double> parse_share(const std::string& text);
 /// "16:64": samples 16 to 63; empty if it is anything else, or no sample.
 std::optional<SampleRange> parse_samples(const std::string& text);
 
@@ -41,6 +43,7 @@ CLI::Validator image_size();
 CLI::Validator definition();
 CLI::Validator duration();
 CLI::Validator sample_range();
+CLI::Validator share();
 
 /// The scene and what may be said over its head: SCENE, -D, --integrator, --sampler, --size, --spp.
 struct SceneArguments {

@@ -27,31 +27,23 @@ std::string coarse_duration(double seconds) {
   return seconds < 59.5 ? fmt::format("{:.{}f} s", seconds, seconds < 9.95 ? 1 : 0) : format_duration(seconds);
 }
 
-bool is_last(const RenderProgress& progress) { return progress.samples_done >= progress.samples_total; }
+bool is_last(const RenderProgress& progress) { return progress.fraction >= 1 && progress.seconds_left == 0; }
 
 }  // namespace
-
-std::optional<double> seconds_left(const RenderProgress& progress) {
-  if (is_last(progress)) return 0;
-  const double done = static_cast<double>(progress.samples_done - progress.samples_resumed);
-  if (done <= 0 || progress.elapsed_seconds <= 0) return std::nullopt;
-  return progress.elapsed_seconds * static_cast<double>(progress.samples_total - progress.samples_done) / done;
-}
 
 std::string progress_line(const std::string& label, const RenderProgress& progress, int columns) {
   const double total = static_cast<double>(progress.samples_total), done = static_cast<double>(progress.samples_done);
   // Rounded down: 100 % is said only when everything is done.
-  const double percent = total > 0 ? std::floor(100 * std::min(done / total, 1.0)) : 0;
+  const double percent = std::floor(100 * std::clamp(progress.fraction, 0.0, 1.0));
   enum Part { kPercent, kSamples, kTime, kSpeed, kError, kPartCount };
   std::array<std::string, kPartCount> parts;
   parts[kPercent] = fmt::format("{}{:3.0f} %", label, percent);
   parts[kSamples] = fmt::format("  {}/{} samples", format_count(done), format_count(total));
   parts[kTime] = "  " + coarse_duration(progress.elapsed_seconds);
-  if (const auto left = seconds_left(progress); left && *left > 0)
-    parts[kTime] += fmt::format(", {} left", coarse_duration(*left));
+  if (progress.seconds_left > 0) parts[kTime] += fmt::format(", {} left", coarse_duration(progress.seconds_left));
   if (progress.samples_per_second > 0)
     parts[kSpeed] = fmt::format("  {} Msamples/s", format_digits(progress.samples_per_second / 1e6));
-  if (progress.relative_error >= 0) parts[kError] = "  error " + format_percent(progress.relative_error);
+  if (progress.error.value >= 0) parts[kError] = "  error " + format_percent(progress.error.value);
 
   const auto length = [&] {
     return std::accumulate(parts.begin(), parts.end(), 0,
@@ -60,6 +52,14 @@ std::string progress_line(const std::string& label, const RenderProgress& progre
   for (const Part part : {kSamples, kSpeed, kTime, kError})
     if (length() > columns) parts[part].clear();
   return fmt::format("{}", fmt::join(parts, "")).substr(0, static_cast<std::size_t>(std::max(columns, 0)));
+}
+
+void add_error(nlohmann::ordered_json& object, const RelativeError& error) {
+  object["relative_error"] = nullptr;
+  object["relative_error_interval"] = nullptr;
+  if (error.value < 0) return;
+  object["relative_error"] = error.value;
+  object["relative_error_interval"] = {error.low, error.high};
 }
 
 void ProgressMeter::start(std::string label) {
@@ -78,10 +78,10 @@ void ProgressMeter::update(const RenderProgress& progress) {
                                      {"samples_total", progress.samples_total},
                                      {"elapsed_seconds", progress.elapsed_seconds},
                                      {"left_seconds", nullptr},
-                                     {"samples_per_second", progress.samples_per_second},
-                                     {"relative_error", nullptr}};
-    if (const auto left = seconds_left(progress)) object["left_seconds"] = *left;
-    if (progress.relative_error >= 0) object["relative_error"] = progress.relative_error;
+                                     {"samples_per_second", progress.samples_per_second}};
+    if (progress.seconds_left >= 0) object["left_seconds"] = progress.seconds_left;
+    object["fraction"] = progress.fraction;
+    add_error(object, progress.error);
     print_json(object);
   } else if (verbosity_ == Verbosity::text && stderr_is_terminal()) {
     // One column stays free: a full last column makes some terminals wrap.

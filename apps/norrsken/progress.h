@@ -2,7 +2,7 @@
 #pragma once
 
 #include <chrono>
-#include <optional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -10,8 +10,8 @@
 
 namespace norrsken::cli {
 
-/// Time left at the mean rate so far; empty before the first samples.
-std::optional<double> seconds_left(const RenderProgress& progress);
+/// `relative_error` and `relative_error_interval`, null while unknown.
+void add_error(nlohmann::ordered_json& object, const RelativeError& error);
 
 /// " 42 %  3.20 M/7.68 M samples  12 s, 16 s left  17.2 Msamples/s  error 1.83 %", with `label` in front. Of what does
 /// not fit into `columns` characters, the samples are left out first, then speed, time and error.

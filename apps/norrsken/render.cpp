@@ -24,7 +24,8 @@ struct Arguments {
   std::vector<std::string> outputs;
   std::uint64_t seed = 0;
   std::string samples, checkpoint, checkpoint_every = "60s";
-  bool layers = false, features = false, quiet = false, json = false;
+  std::string target_error, time;
+  bool adaptive = false, layers = false, features = false, quiet = false, json = false;
 
   /// What decides a sample, and the machine that takes it.
   RenderOptions sampling() const {
@@ -74,11 +75,28 @@ void warn_about_useless_options(const Arguments& arguments) {
 nlohmann::ordered_json or_null(const std::string& text) {
   return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
 }
+template <class T>
+nlohmann::ordered_json or_null(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
 
-/// Samples of each pixel that are asked for.
-int sample_count(const Arguments& arguments, const SceneInfo& info) {
-  const auto range = parse_samples(arguments.samples);
-  return range ? static_cast<int>(range->count()) : info.samples_per_pixel;
+/// Samples of each pixel that are asked for; nothing if an error or a time says when to end.
+std::optional<int> sample_count(const Arguments& arguments, const SceneInfo& info) {
+  if (const auto range = parse_samples(arguments.samples)) return static_cast<int>(range->count());
+  const bool is_open = !arguments.target_error.empty() || !arguments.time.empty();
+  return is_open && arguments.scene.spp == 0 ? std::nullopt : std::optional(info.samples_per_pixel);
+}
+
+/// "64 samples per pixel", "at most 64 samples per pixel until the error is 1%".
+std::string end_text(const Arguments& arguments, const SceneInfo& info) {
+  const bool is_open = !arguments.target_error.empty() || !arguments.time.empty();
+  std::vector<std::string> parts;
+  if (const auto count = sample_count(arguments, info))
+    parts.push_back(fmt::format("{}{} per pixel{}", is_open ? "at most " : "", format_plural(*count, "sample"),
+                                arguments.adaptive ? " on average" : ""));
+  if (!arguments.target_error.empty()) parts.push_back("until the error is " + arguments.target_error);
+  if (!arguments.time.empty()) parts.push_back("for " + arguments.time);
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 void tell_start(const Arguments& arguments, const SceneInfo& info) {
@@ -88,7 +106,10 @@ void tell_start(const Arguments& arguments, const SceneInfo& info) {
                 {"scene", arguments.scene.scene},
                 {"width", info.width},
                 {"height", info.height},
-                {"samples_per_pixel", sample_count(arguments, info)},
+                {"samples_per_pixel", or_null(sample_count(arguments, info))},
+                {"target_error", or_null(parse_share(arguments.target_error))},
+                {"time", or_null(parse_duration(arguments.time))},
+                {"adaptive", arguments.adaptive},
                 {"seed", arguments.seed},
                 {"samples", or_null(arguments.samples)},
                 {"checkpoint", or_null(arguments.checkpoint)},
@@ -98,9 +119,9 @@ void tell_start(const Arguments& arguments, const SceneInfo& info) {
                 {"sampler", info.sampler},
                 {"files", arguments.outputs}});
   } else if (!arguments.quiet) {
-    print_note(fmt::format("{}: {} x {} pixels, {} per pixel ({}), {}, {} per hit", arguments.scene.scene, info.width,
-                           info.height, format_plural(sample_count(arguments, info), "sample"), info.sampler,
-                           info.integrator, format_plural(info.emitter_samples, "shadow ray")));
+    print_note(fmt::format("{}: {} x {} pixels, {} ({}), {}, {} per hit", arguments.scene.scene, info.width,
+                           info.height, end_text(arguments, info), info.sampler, info.integrator,
+                           format_plural(info.emitter_samples, "shadow ray")));
   }
 }
 
@@ -153,7 +174,6 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
                                      {"closest_rays", statistics.closest_rays},
                                      {"shadow_rays", statistics.shadow_rays},
                                      {"rays_per_second", rays / seconds},
-                                     {"relative_error", nullptr},
                                      {"dropped_samples", statistics.dropped_samples},
                                      {"dropped", dropped},
                                      {"isa", statistics.isa},
@@ -161,7 +181,7 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
                                      {"threads", statistics.threads},
                                      {"accelerator", statistics.accelerator},
                                      {"files", written}};
-    if (statistics.relative_error >= 0) object["relative_error"] = statistics.relative_error;
+    add_error(object, statistics.error);
     print_json(object);
     return;
   }
@@ -171,20 +191,22 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
                                  format_digits(rays / seconds / 1e6));
   if (statistics.samples_resumed > 0)
     text += fmt::format(", {} from the checkpoint", format_count(static_cast<double>(statistics.samples_resumed)));
-  if (statistics.relative_error >= 0)
-    text += fmt::format(", estimated error {}", format_percent(statistics.relative_error));
+  if (statistics.error.value >= 0)
+    text += fmt::format(", estimated error {} ({} to {})", format_percent(statistics.error.value),
+                        format_percent(statistics.error.low), format_percent(statistics.error.high));
   text += fmt::format(" ({}, {}, {}, {})", statistics.isa, format_plural(statistics.lanes, "lane"),
                       format_plural(statistics.threads, "thread"), statistics.accelerator);
   print_note(text);
   if (!written.empty()) print_note(fmt::format("wrote {}", fmt::join(written, ", ")));
   if (!statistics.cancelled) return;
   const double per_pixel = samples / pixels;
+  const std::optional<int> asked = sample_count(arguments, info);
   const bool is_saved = !arguments.checkpoint.empty() && statistics.checkpoint_error.empty();
   const std::string advice = is_saved ? "; the same command goes on" : "";
   if (!written.empty())
-    print_note(fmt::format("interrupted: the image holds {} of {} per pixel{}",
+    print_note(fmt::format("interrupted: the image holds {}{} per pixel{}",
                            per_pixel < 1 ? fmt::format("{:.2g}", per_pixel) : format_digits(per_pixel),
-                           format_plural(sample_count(arguments, info), "sample"), advice));
+                           asked ? " of " + format_plural(*asked, "sample") : " samples", advice));
   else if (!statistics.has_image)
     print_note(fmt::format("interrupted before the first {}: no image was written{}",
                            statistics.samples == 0 ? "sample" : "image was complete", advice));
@@ -193,9 +215,11 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
 }
 
 ExitStatus replay(const Arguments& arguments) {
-  if (!arguments.outputs.empty() || !arguments.checkpoint.empty() || !arguments.samples.empty())
+  if (!arguments.outputs.empty() || !arguments.checkpoint.empty() || !arguments.samples.empty() ||
+      !arguments.target_error.empty() || !arguments.time.empty() || arguments.adaptive)
     throw Failure(ExitStatus::usage,
-                  "--pixel prints one sample: -o, --checkpoint and --samples have no place beside it");
+                  "--pixel prints one sample: -o, --checkpoint, --samples, --target-error, --time and --adaptive have "
+                  "no place beside it");
   const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet);
   return replay(scene, arguments.sampling(), arguments.replay, arguments.json);
 }
@@ -204,6 +228,10 @@ ExitStatus render(Arguments arguments) {
   if (arguments.replay.wanted()) return replay(arguments);
   if (!arguments.samples.empty() && arguments.checkpoint.empty())
     throw Failure(ExitStatus::usage, "--samples needs --checkpoint FILE, which receives what 'norrsken merge' joins");
+  if (!arguments.samples.empty() && (!arguments.target_error.empty() || !arguments.time.empty() || arguments.adaptive))
+    throw Failure(
+        ExitStatus::usage,
+        "--samples takes all samples of a range: --target-error, --time and --adaptive have no place beside it");
   // A part of the samples is there to be merged, and only shown if that is asked for.
   if (arguments.outputs.empty() && arguments.samples.empty())
     arguments.outputs = {default_output(arguments.scene.scene)};
@@ -216,6 +244,10 @@ ExitStatus render(Arguments arguments) {
   RenderOptions options = arguments.sampling();
   options.features = arguments.features;
   if (!arguments.samples.empty()) options.samples = parse_samples(arguments.samples);
+  if (arguments.scene.spp > 0) options.samples_per_pixel = arguments.scene.spp;
+  options.target_error = parse_share(arguments.target_error).value_or(0);
+  options.seconds = parse_duration(arguments.time).value_or(0);
+  options.adaptive = arguments.adaptive;
   options.checkpoint = arguments.checkpoint;
   options.checkpoint_seconds = parse_duration(arguments.checkpoint_every).value();
   const auto rendering = create_render(scene, options, !arguments.quiet);
@@ -273,7 +305,19 @@ void add_render_command(CLI::App& app, Action& action) {
           "Take the samples A to B-1 of each pixel alone and leave them in the checkpoint, for 'norrsken merge'")
       ->check(sample_range())
       ->type_name("A:B");
-  command->add_flag("--layers", arguments->layers, "Add sample count, variance and error layers to EXR files");
+  command
+      ->add_option("--target-error", arguments->target_error,
+                   "Render until the estimated error of the whole image (RMSE over mean) is at most this: 1%, 0.005;\n"
+                   "--spp is the most to take then")
+      ->check(share())
+      ->type_name("E");
+  command->add_option("--time", arguments->time, "Render for so long: 30s, 5m, 1h; --spp is the most to take then")
+      ->check(duration())
+      ->type_name("TIME");
+  command->add_flag("--adaptive", arguments->adaptive,
+                    "Take more samples where there is more noise; --spp is their mean");
+  command->add_flag("--layers", arguments->layers,
+                    "Add sample count, variance, error and 95 % interval layers to EXR files");
   command->add_flag("--features", arguments->features,
                     "Add depth, normal, albedo and object id of the first hits too (implies --layers)");
   arguments->tone.add_to(*command);
@@ -290,6 +334,8 @@ void add_render_command(CLI::App& app, Action& action) {
       "  norrsken render room.xml -o room.png --spp 256 --exposure 0.5 --tone filmic\n"
       "  norrsken render hexagon_room -Dlight=point -Dshadow_rays=1 -o a.exr -o a.png --layers\n"
       "  norrsken render room.xml --size 1920x1080 --json\n"
+      "  norrsken render room.xml --target-error 1% --adaptive\n"
+      "  norrsken render room.xml --time 30s --layers\n"
       "  norrsken render room.xml --spp 4096 --checkpoint room.ckpt --checkpoint-every 10m\n"
       "  norrsken render room.xml --samples 0:512 --checkpoint a.part\n"
       "  norrsken render room.xml --pixel 12,40 --sample 3 --trace");

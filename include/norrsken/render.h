@@ -27,6 +27,12 @@ struct SampleRange {
 struct RenderOptions {
   std::optional<int> samples_per_pixel = {};  ///< in place of the scene's
   std::optional<SampleRange> samples = {};    ///< these alone
+  /// Render until the whole image's relative error is at most this, seen from the upper end of its interval, or for so
+  /// many seconds, or both, whichever is first; 0: neither. Samples per pixel are the most to take then, if they are given
+  /// here; the scene's number does not count. Samples are added in whole blocks.
+  double target_error = 0;
+  double seconds = 0;
+  bool adaptive = false;  ///< more samples where there is more noise, by tiles; samples per pixel are the mean
   std::uint64_t seed = 0;
   int threads = 0;                   ///< 0: one per hardware thread
   std::string isa = "auto";          ///< auto, scalar, sse4.2, avx2, avx512
@@ -38,12 +44,21 @@ struct RenderOptions {
   double checkpoint_seconds = 60;  ///< from one writing to the next
 };
 
+/// Estimated RMSE of an image over its mean.
+struct RelativeError {
+  double value = -1;         ///< -1 while unknown
+  double low = 0, high = 0;  ///< holds the true one with a probability of 95 %
+};
+
 struct RenderProgress {
-  std::uint64_t samples_done = 0, samples_total = 0;  ///< camera samples
-  std::uint64_t samples_resumed = 0;                  ///< of those done: what the checkpoint held
-  double elapsed_seconds = 0;                         ///< since run() began
+  std::uint64_t samples_done = 0;     ///< camera samples
+  std::uint64_t samples_total = 0;    ///< of all, or up to the next look at error and time
+  std::uint64_t samples_resumed = 0;  ///< of those done: what the checkpoint held
+  double elapsed_seconds = 0;         ///< since run() began
   double samples_per_second = 0;
-  double relative_error = -1;         ///< estimated RMSE of the image over its mean; -1 while unknown
+  double fraction = 0;       ///< 0 to 1: how much is done, as far as can be told
+  double seconds_left = -1;  ///< -1 while unknown
+  RelativeError error;
   std::string checkpoint_error = {};  ///< why the checkpoint could not be written the last time; empty if it could
 };
 
@@ -62,8 +77,8 @@ struct RenderStatistics {
   std::vector<DroppedSample> dropped;  ///< the first few of them
   bool samples_of_pixels = true;  ///< false: paths begin at the lights, and a sample's pixel is where it is counted
   double seconds = 0;
-  double relative_error = -1;
-  bool cancelled = false;
+  RelativeError error;
+  bool cancelled = false;        ///< before the end
   bool has_image = false;        ///< there are samples, and the layers are complete
   std::string checkpoint_error;  ///< as in RenderProgress
   std::string isa, accelerator;
@@ -84,7 +99,9 @@ class Render {
   virtual void cancel() noexcept = 0;
 
   /// What has been rendered, asked after `run`: R, G, B; `layers` adds `samples`, `variance.R/G/B` (of the mean),
-  /// `error.R/G/B` (its root; both NaN while a pixel has too few samples to tell) and, with RenderOptions::features,
+  /// `error.R/G/B` (its root; both NaN while a pixel has too few samples to tell), `interval.R/G/B` (half the width of the
+  /// interval around the value that holds the true one with a probability of 95 %, from the variances of the pixel and
+  /// of its neighbours) and, with RenderOptions::features,
   /// `depth.Z`, `normal.X/Y/Z`, `albedo.R/G/B`, `id`.
   virtual Image image(bool layers = false) const = 0;
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "color/srgb.h"
+#include "film/interval.h"
 #include "tables/film_memory.h"
 #include "tables/wave_types.h"
 
@@ -32,16 +33,35 @@ std::vector<FeatureLayer> standard_features() {
   return layers;
 }
 
+void FilmError::add(const PixelEstimate (&channels_of_pixel)[3]) {
+  double variance = 0, freedom = std::numeric_limits<double>::infinity();
+  for (const PixelEstimate& e : channels_of_pixel) {
+    if (!e.known) continue;
+    mean_sum += e.mean;
+    variance += e.variance;
+    freedom = std::min(freedom, e.degrees_of_freedom);
+    ++channels;
+  }
+  variance_sum += variance;
+  // Channels err together, pixels do not. For normal errors of variance v the variance estimated from f degrees of freedom
+  // has a variance of 2 v^2 / f, the squared error one of 2 v^2, and the expected square of the estimate is v^2 (1 + 2 / f).
+  if (variance > 0) spread += variance * variance * 2 * (freedom + 1) / (freedom + 2);
+}
+
 void FilmError::operator+=(const FilmError& other) {
   mean_sum += other.mean_sum;
   variance_sum += other.variance_sum;
+  spread += other.spread;
   channels += other.channels;
 }
 
-double FilmError::relative() const {
-  if (channels == 0 || !(mean_sum > 0)) return -1;
+RelativeError FilmError::relative() const {
+  if (channels == 0 || !(mean_sum > 0)) return {};
+  constexpr double kNormal = 1.959964;  // 97.5 % of the normal distribution
   const double n = static_cast<double>(channels);
-  return std::sqrt(variance_sum / n) / (mean_sum / n);
+  const auto relative_root = [&](double sum) { return std::sqrt(std::max(sum, 0.0) / n) / (mean_sum / n); };
+  const double margin = kNormal * std::sqrt(spread);
+  return {relative_root(variance_sum), relative_root(variance_sum - margin), relative_root(variance_sum + margin)};
 }
 
 Film::Film(const FilmSettings& settings, SamplerKind sampler, SceneLayers layers)
@@ -103,7 +123,8 @@ PixelEstimate Film::estimate(std::uint64_t pixel, int channel) const {
   if (!splats_.exist()) return samples;
   // Two independent estimates of two parts of the light.
   const PixelEstimate splats = splats_.estimate(pixel, channel);
-  return {samples.mean + splats.mean, samples.variance + splats.variance, samples.known && splats.known};
+  return {samples.mean + splats.mean, samples.variance + splats.variance, samples.known && splats.known,
+          std::min(samples.degrees_of_freedom, splats.degrees_of_freedom)};
 }
 
 PixelEstimate Film::estimate_samples(std::uint64_t pixel, int channel) const {
@@ -118,7 +139,7 @@ PixelEstimate Film::estimate_samples(std::uint64_t pixel, int channel) const {
     const double mean = sum(c) / count;
     if (n < 2) return {mean, 0, false};
     const double variance = (sum(3 + c) - count * mean * mean) / (count * (count - 1));
-    return {mean, std::max(variance, 0.0), true};
+    return {mean, std::max(variance, 0.0), true, count - 1};
   }
 
   double sums[kReplicates], counts[kReplicates];
@@ -134,13 +155,8 @@ FilmError Film::error(const FilmRegion& region) const {
   FilmError total;
   for (std::uint32_t y = region.y0; y < region.y0 + region.height; ++y) {
     for (std::uint32_t x = region.x0; x < region.x0 + region.width; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        const PixelEstimate e = estimate(static_cast<std::uint64_t>(y) * width_ + x, c);
-        if (!e.known) continue;
-        total.mean_sum += e.mean;
-        total.variance_sum += e.variance;
-        ++total.channels;
-      }
+      const std::uint64_t pixel = std::uint64_t{y} * width_ + x;
+      total.add({estimate(pixel, 0), estimate(pixel, 1), estimate(pixel, 2)});
     }
   }
   return total;
@@ -159,24 +175,30 @@ Image Film::image(bool statistics, std::uint32_t feature_samples) const {
     image.channels.push_back({name, std::vector<float>(pixels)});
     return image.channels.size() - 1;
   };
-  std::array<std::size_t, 3> color{}, variance{}, error{};
+  std::array<std::size_t, 3> color{}, variance{}, error{}, interval{};
   for (std::size_t c = 0; c < 3; ++c) color[c] = add(kColors[c]);
   std::size_t samples = 0;
   if (statistics) {
     samples = add("samples");
     for (std::size_t c = 0; c < 3; ++c) variance[c] = add(std::string("variance.") + kColors[c]);
     for (std::size_t c = 0; c < 3; ++c) error[c] = add(std::string("error.") + kColors[c]);
+    for (std::size_t c = 0; c < 3; ++c) interval[c] = add(std::string("interval.") + kColors[c]);
   }
-  for (std::size_t i = 0; i < pixels; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
+  std::vector<std::uint32_t> counts(statistics ? pixels : 0);
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = counts_[i] & ~kSomeDropped;
+  if (statistics) std::ranges::copy(counts, image.channels[samples].values.begin());
+  std::vector<PixelEstimate> estimates(statistics ? pixels : 0);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < pixels; ++i) {
       const PixelEstimate e = estimate(i, static_cast<int>(c));
       image.channels[color[c]].values[i] = static_cast<float>(e.mean);
       if (!statistics) continue;
       const double known = e.known ? e.variance : std::numeric_limits<double>::quiet_NaN();
       image.channels[variance[c]].values[i] = static_cast<float>(known);
       image.channels[error[c]].values[i] = static_cast<float>(std::sqrt(known));
+      estimates[i] = e;
     }
-    if (statistics) image.channels[samples].values[i] = static_cast<float>(counts_[i] & ~kSomeDropped);
+    if (statistics) image.channels[interval[c]].values = confidence_intervals(width_, height_, estimates, counts);
   }
   if (settings_.has_alpha()) add_alpha(image, feature_samples);
   for (const std::string& name : layers_.image_copies) {

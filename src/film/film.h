@@ -9,9 +9,11 @@
 
 #include "base/aligned.h"
 #include "film/exact_planes.h"
+#include "film/pixel_estimate.h"
 #include "film/sample_set.h"
 #include "film/splats.h"
 #include "norrsken/image.h"
+#include "norrsken/render.h"
 #include "tables/film_view.h"
 #include "tables/layers.h"
 #include "tables/scene_tables.h"
@@ -26,11 +28,13 @@ struct FilmRegion {
 /// Totals over pixels and channels, for the error of the whole image.
 struct FilmError {
   double mean_sum = 0, variance_sum = 0;
+  double spread = 0;           ///< variance of the difference of variance_sum and the sum of squared errors
   std::uint64_t channels = 0;  ///< pixel channels whose variance is known
 
+  void add(const PixelEstimate (&channels_of_pixel)[3]);
   void operator+=(const FilmError& other);
-  /// sqrt(mean variance) / mean; -1 if nothing is known yet.
-  double relative() const;
+  /// sqrt(mean variance) / mean, with the interval that holds the image's true one with a probability of 95 %.
+  RelativeError relative() const;
 };
 
 /// The layers of any scene's first hits: depth.Z, normal.X/Y/Z, albedo.R/G/B and id.

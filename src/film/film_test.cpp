@@ -57,7 +57,7 @@ TEST(Film, UnknownWithFewerThanTwoEstimates) {
     add(film, kind, 0, 5.0);
     EXPECT_DOUBLE_EQ(film.estimate(0, 0).mean, 5.0);
     EXPECT_FALSE(film.estimate(0, 0).known);
-    EXPECT_EQ(film.error({0, 0, 1, 1}).relative(), -1);
+    EXPECT_EQ(film.error({0, 0, 1, 1}).relative().value, -1);
     const Image image = film.image(true, 0);
     EXPECT_TRUE(std::isnan(image.find("variance.R")->values[0]));
     add(film, kind, 0, 7.0);
@@ -90,10 +90,35 @@ TEST(Film, RelativeErrorOfTheImage) {
   Film film(size(2, 1), SamplerKind::independent);
   for (const double x : {1.0, 3.0}) add(film, SamplerKind::independent, 0, x);  // mean 2, variance of the mean 1
   for (const double x : {4.0, 4.0}) add(film, SamplerKind::independent, 1, x);  // mean 4, variance 0
-  EXPECT_NEAR(film.error({0, 0, 2, 1}).relative(), std::sqrt(0.5) / 3.0, 1e-12);
+  EXPECT_NEAR(film.error({0, 0, 2, 1}).relative().value, std::sqrt(0.5) / 3.0, 1e-12);
   FilmError sum = film.error({0, 0, 1, 1});
   sum += film.error({1, 0, 1, 1});
-  EXPECT_DOUBLE_EQ(sum.relative(), film.error({0, 0, 2, 1}).relative());
+  EXPECT_DOUBLE_EQ(sum.relative().value, film.error({0, 0, 2, 1}).relative().value);
+  EXPECT_DOUBLE_EQ(sum.relative().high, film.error({0, 0, 2, 1}).relative().high);
+  EXPECT_EQ(FilmError{}.relative().value, -1);
+}
+
+/// Normal samples: the interval holds the root of the mean squared error in 95 % of images, or nearly; the
+/// mean that it is relative to is uncertain, too.
+TEST(Film, IntervalOfTheRelativeErrorHoldsTheTrueOne) {
+  constexpr int kImages = 4000, kPixels = 200;
+  for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol}) {
+    std::mt19937_64 random(7);
+    std::normal_distribution<double> normal(4, 1);
+    int held = 0;
+    for (int image = 0; image < kImages; ++image) {
+      Film film(size(kPixels, 1), sampler);
+      double squares = 0;
+      for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+        for (int sample = 0; sample < 16; ++sample) add(film, sampler, pixel, normal(random));
+        squares += std::pow(film.estimate(pixel, 0).mean - 4, 2);
+      }
+      const RelativeError error = film.error({0, 0, kPixels, 1}).relative();
+      const double truth = std::sqrt(squares / kPixels) / 4;
+      if (error.low <= truth && truth <= error.high) ++held;
+    }
+    EXPECT_NEAR(held / static_cast<double>(kImages), 0.95, 0.02) << static_cast<int>(sampler);
+  }
 }
 
 TEST(Film, LayersOnRequest) {

@@ -8,8 +8,9 @@ namespace norrsken {
 /// Mean and variance of the mean of one pixel's channel.
 struct PixelEstimate {
   double mean = 0;
-  double variance = 0;  ///< of the mean; meaningful if `known`
-  bool known = false;   ///< false while there are fewer than two independent estimates
+  double variance = 0;            ///< of the mean; meaningful if `known`
+  bool known = false;             ///< false while there are fewer than two independent estimates
+  double degrees_of_freedom = 0;  ///< of the variance
 };
 
 /// From the sums of independent replicates and how many samples are in each: the spread of the replicates' means, each
@@ -27,7 +28,7 @@ inline PixelEstimate estimate_from_replicates(const double (&sums)[kReplicates],
     ++replicates;
   }
   if (replicates < 2) return {mean, 0, false};
-  return {mean, spread / (count * count) * replicates / (replicates - 1), true};
+  return {mean, spread / (count * count) * replicates / (replicates - 1), true, replicates - 1};
 }
 
 }  // namespace norrsken

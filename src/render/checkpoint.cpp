@@ -12,7 +12,7 @@ namespace norrsken {
 namespace {
 
 /// Of the sections' contents; another one says that the file is of another program.
-constexpr std::uint32_t kFormatVersion = 1;
+constexpr std::uint32_t kFormatVersion = 2;
 
 constexpr std::uint64_t kLongestTraits = 1 << 20, kLongestForm = 1 << 20;
 constexpr std::uint32_t kLargestSide = 65536;
@@ -156,7 +156,9 @@ Writer pack(const Work& work) {
   }
   w.number(work.grid.tile_width);
   w.number(work.grid.tile_height);
-  for (const TileProgress* progress : {&work.progress, &work.feature_progress}) {
+  w.number(work.goal.mean);
+  w.number(static_cast<std::uint8_t>(work.goal.is_step));
+  for (const TileProgress* progress : {&work.goal.of_tile, &work.progress, &work.feature_progress}) {
     w.list(*progress, [&](std::uint32_t done) { w.number(done); });
   }
   w.number(work.dropped.count);
@@ -182,7 +184,9 @@ bool unpack(std::span<const std::byte> bytes, StoredRender& stored) {
   }
   r.number(stored.tile_width);
   r.number(stored.tile_height);
-  for (TileProgress* progress : {&stored.progress, &stored.feature_progress}) {
+  r.number(stored.goal.mean);
+  r.flag(stored.goal.is_step);
+  for (TileProgress* progress : {&stored.goal.of_tile, &stored.progress, &stored.feature_progress}) {
     r.list([&] { r.number(progress->emplace_back()); });
   }
   r.number(stored.dropped.count);
@@ -198,7 +202,7 @@ bool unpack(std::span<const std::byte> bytes, StoredRender& stored) {
 
 /// A tile's progress has four bytes.
 std::uint64_t longest_progress(const FilmSettings& film) {
-  return 2 * sizeof(std::uint32_t) * static_cast<std::uint64_t>(std::int64_t{film.width} * film.height) + 4096;
+  return 3 * sizeof(std::uint32_t) * static_cast<std::uint64_t>(std::int64_t{film.width} * film.height) + 4096;
 }
 
 SourceLocation place(const std::string& path) {
@@ -242,7 +246,8 @@ namespace {
 enum class Attempt { resumed, missing, damaged, refused };
 
 /// Why what is stored cannot become what is asked for, and what could, or nothing.
-std::pair<std::string, std::string> objection(const StoredRender& stored, const Traits& traits, const Work& work) {
+std::pair<std::string, std::string> objection(const StoredRender& stored, const Traits& traits,
+                                              const SampleSchedule& schedule, const Work& work) {
   constexpr const char* kRemedy = "the settings and files that it was made with, or another checkpoint";
   if (const std::string other = difference(stored.traits, traits); !other.empty()) {
     return {"is of another rendering: " + other, kRemedy};
@@ -255,15 +260,15 @@ std::pair<std::string, std::string> objection(const StoredRender& stored, const 
   }
   std::uint32_t most = 0;
   for (const std::uint32_t done : stored.progress) most = std::max(most, done);
-  if (most > work.samples.count()) {
-    return {fmt::format("holds {} samples per pixel, more than the {} asked for", most, work.samples.count()),
+  if (!schedule.resume(work.grid, stored.goal, stored.progress)) {
+    return {fmt::format("holds {} samples per pixel, more than the {} asked for", most, schedule.most()),
             fmt::format("{} or more", most)};
   }
   return {};
 }
 
-Attempt attempt(const std::string& path, const Traits& traits, Work& work, Film& film, std::string& damage,
-                Diagnostics& diagnostics) {
+Attempt attempt(const std::string& path, const Traits& traits, const SampleSchedule& schedule, Work& work, Film& film,
+                std::string& damage, Diagnostics& diagnostics) {
   RenderReader reader(path);
   using State = SectionReader::State;
   damage = reader.complaint();
@@ -281,18 +286,22 @@ Attempt attempt(const std::string& path, const Traits& traits, Work& work, Film&
       return Attempt::refused;
   }
   const StoredRender& stored = reader.stored();
-  if (const auto [message, accepted] = objection(stored, traits, work); !message.empty()) {
+  if (const auto [message, accepted] = objection(stored, traits, schedule, work); !message.empty()) {
     diagnostics.error(place(path), "the checkpoint " + message, accepted);
     return Attempt::refused;
   }
+  const SampleGoal goal = schedule.resume(work.grid, stored.goal, stored.progress).value();
+  const SampleRange samples{work.samples.first, work.samples.first + goal.most()};
+  const TileProgress features = SampleGoal::uniform(work.grid, work.feature_samples.count(), false).of_tile;
   const bool fits =
-      is_possible(work.grid, work.samples, stored.progress) &&
+      is_possible(work.grid, samples, goal.of_tile, stored.progress) &&
       (work.feature_progress.empty() ? stored.feature_progress.empty()
-                                     : is_possible(work.grid, work.feature_samples, stored.feature_progress));
+                                     : is_possible(work.grid, work.feature_samples, features, stored.feature_progress));
   if (!fits || !reader.read_film(film)) {
     damage = fits ? reader.complaint() : "says that it has come to where it cannot be";
     return Attempt::damaged;
   }
+  work.set_goal(goal);
   work.progress = stored.progress;
   work.feature_progress = stored.feature_progress;
   work.dropped = stored.dropped;
@@ -301,11 +310,11 @@ Attempt attempt(const std::string& path, const Traits& traits, Work& work, Film&
 
 }  // namespace
 
-Resumption resume_render(const std::string& path, const Traits& traits, Work& work, Film& film,
-                         Diagnostics& diagnostics) {
+Resumption resume_render(const std::string& path, const Traits& traits, const SampleSchedule& schedule, Work& work,
+                         Film& film, Diagnostics& diagnostics) {
   const std::string older = older_generation_of(path);
   std::string damage, older_damage;
-  const Attempt newest = attempt(path, traits, work, film, damage, diagnostics);
+  const Attempt newest = attempt(path, traits, schedule, work, film, damage, diagnostics);
   switch (newest) {
     case Attempt::resumed:
       return Resumption::newest;
@@ -317,7 +326,7 @@ Resumption resume_render(const std::string& path, const Traits& traits, Work& wo
     case Attempt::damaged:
       break;
   }
-  switch (attempt(older, traits, work, film, older_damage, diagnostics)) {
+  switch (attempt(older, traits, schedule, work, film, older_damage, diagnostics)) {
     case Attempt::resumed:
       diagnostics.warning(place(path), "the checkpoint " + damage + "; going on with the older " + quoted(older));
       return Resumption::older;

@@ -24,6 +24,7 @@ struct StoredRender {
   Traits traits;
   FilmForm form;
   SampleRange samples, feature_samples;
+  SampleGoal goal;
   std::uint32_t tile_width = 0, tile_height = 0;
   TileProgress progress, feature_progress;
   DroppedSamples dropped;
@@ -57,8 +58,9 @@ enum class Resumption {
   older,   ///< with the generation before, the file being damaged; this was told as a warning
   refused  ///< this was told as an error
 };
-/// Takes up what `path` holds of the same rendering, into `work` and `film`. `work` comes with what is asked for.
-Resumption resume_render(const std::string& path, const Traits& traits, Work& work, Film& film,
-                         Diagnostics& diagnostics);
+/// Takes up what `path` holds of the same rendering, into `work` and `film`. `work` comes with what is asked for, and
+/// `schedule` says what is to become of it.
+Resumption resume_render(const std::string& path, const Traits& traits, const SampleSchedule& schedule, Work& work,
+                         Film& film, Diagnostics& diagnostics);
 
 }  // namespace norrsken

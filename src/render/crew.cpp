@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace norrsken {
 namespace {
@@ -76,9 +78,12 @@ bool Work::features_done() const {
   return std::ranges::all_of(feature_progress, [&](std::uint32_t done) { return done == feature_samples.count(); });
 }
 
-bool Work::done() const {
-  return features_done() && std::ranges::all_of(progress, [&](std::uint32_t done) { return done == samples.count(); });
+void Work::set_goal(SampleGoal next) {
+  goal = std::move(next);
+  samples.end = samples.first + goal.most();
 }
+
+bool Work::done() const { return features_done() && progress == goal.of_tile; }
 
 std::uint64_t Work::samples_done() const {
   std::uint64_t done = 0;
@@ -173,6 +178,8 @@ bool Crew::run_pass(Pass pass, const WorkPlan& plan, const Tick& tick) {
 }
 
 void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave, WaveMemory& memory) {
+  const TileProgress& progress = pass == Pass::radiance ? work_.progress : work_.feature_progress;
+  constexpr std::uint32_t all = std::numeric_limits<std::uint32_t>::max() / 2;
   WaveCounts counts;
   while (!cancelled_.load(std::memory_order_relaxed) && !stop_.load(std::memory_order_relaxed)) {
     const std::uint64_t wave = next_wave.fetch_add(1, std::memory_order_relaxed);
@@ -185,11 +192,11 @@ void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& nex
     }
     const Area& on_film = areas_[area];
     if (plan.block_of(wave) < on_film.blocks_before) continue;
-    if (plan.block_of(wave) == on_film.blocks_before) {
-      // Only this area's first wave changes its progress, and this is it.
-      job =
-          plan.remaining(job, plan.progress_of(area, pass == Pass::radiance ? work_.progress : work_.feature_progress));
-    }
+    // Only an area's first wave finds a part of its samples on the film. It alone changes the progress until it is there.
+    const std::uint32_t done = plan.block_of(wave) == on_film.blocks_before ? plan.progress_of(area, progress) : 0;
+    job = plan.remaining(job, done, pass == Pass::radiance ? plan.progress_of(area, work_.goal.of_tile) : all);
+    // An area that has all its samples needs none of the later blocks either.
+    if (job.sample_count == 0) continue;
     if (pass == Pass::radiance) {
       kernels_.trace_wave(scene_, job, memory, counts);
     } else {
@@ -228,7 +235,8 @@ void Crew::trace_particles(const WorkPlan& plan, std::uint64_t wave, const WaveJ
   WaveJob job = whole;
   {
     const std::lock_guard lock(film.mutex);
-    job = plan.remaining(whole, plan.progress_of(plan.area_of(wave), work_.progress));
+    const std::uint64_t area = plan.area_of(wave);
+    job = plan.remaining(whole, plan.progress_of(area, work_.progress), plan.progress_of(area, work_.goal.of_tile));
   }
   DroppedSamples dropped;
   for (std::uint32_t hit_number = 1; hit_number != 0;) {
@@ -256,7 +264,7 @@ void Crew::count_samples(const WaveJob& job, const DroppedSamples& dropped) {
   work_.dropped.add(dropped);
 }
 
-double Crew::relative_error() {
+RelativeError Crew::relative_error() {
   // Looking costs a pass over the film, so it is done once a second, and only while it would tell something new.
   const std::uint64_t samples = samples_done();
   const auto now = std::chrono::steady_clock::now();

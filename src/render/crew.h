@@ -13,6 +13,7 @@
 #include "film/film.h"
 #include "isa/entry.h"
 #include "norrsken/render.h"
+#include "render/schedule.h"
 #include "render/wave_arena.h"
 #include "render/work_plan.h"
 
@@ -25,10 +26,14 @@ int crew_size(int asked);
 struct Work {
   TileGrid grid;
   SampleRange samples, feature_samples;  ///< features of none if there are no features
+  SampleGoal goal;                       ///< of those samples
   TileProgress progress, feature_progress;
   DroppedSamples dropped;
 
+  /// Another goal; the samples become those that it needs.
+  void set_goal(SampleGoal next);
   bool features_done() const;
+  /// Features and goal.
   bool done() const;
   /// Camera samples on the film.
   std::uint64_t samples_done() const;
@@ -57,7 +62,7 @@ class Crew {
 
   std::uint64_t samples_done() const { return samples_done_.load(std::memory_order_relaxed); }
   /// Of what is on the film, looked at about once a second; -1 while unknown.
-  double relative_error();
+  RelativeError relative_error();
   /// Rays are those of this crew, samples those on the film.
   RenderStatistics statistics() const;
 
@@ -95,7 +100,7 @@ class Crew {
   WaveCounts counts_;
 
   std::chrono::steady_clock::time_point last_look_{};
-  double last_error_ = -1;
+  RelativeError last_error_;
   std::uint64_t last_error_samples_ = 0;
 };
 

@@ -47,6 +47,7 @@ bool needs_all_features(const Scene& scene) {
   return !scene.tables().layers.features.empty() || scene.tables().tables.film.has_alpha();
 }
 
+/// The samples that are asked for, by the scene if nobody else does.
 SampleRange sample_range(const SceneTables& tables, const RenderOptions& options) {
   if (options.samples) return *options.samples;
   const auto count = options.samples_per_pixel.value_or(static_cast<int>(tables.sampler.samples_per_pixel));
@@ -67,10 +68,18 @@ SampleRange feature_range(const Scene& scene, const RenderOptions& options, Samp
   return {std::min(samples.first, kFeatureSamples), std::min(samples.end, kFeatureSamples)};
 }
 
-Work make_work(const SceneView& view, const Film& film, SampleRange samples, SampleRange feature_samples) {
+SampleSchedule make_schedule(SampleRange samples, const RenderOptions& options) {
+  const bool is_bounded = options.samples_per_pixel || (options.target_error <= 0 && options.seconds <= 0);
+  return SampleSchedule(options, is_bounded ? samples.count() : kMostSamples);
+}
+
+Work make_work(const SceneView& view, const Film& film, const SampleSchedule& schedule, SampleRange samples,
+               SampleRange feature_samples) {
   const TileGrid grid = Crew::grid(view, film.width(), film.height());
   const TileProgress none(grid.tile_count());
-  return {grid, samples, feature_samples, none, feature_samples.count() > 0 ? none : TileProgress{}, {}};
+  Work work{grid, samples, feature_samples, {}, none, feature_samples.count() > 0 ? none : TileProgress{}, {}};
+  work.set_goal(schedule.first(grid));
+  return work;
 }
 
 class RenderSession final : public Render {
@@ -83,10 +92,11 @@ class RenderSession final : public Render {
         view_(make_scene_view(tables_, accel_.view())),
         threads_(crew_size(options.threads)),
         film_(film_settings(tables_), view_.sampler.kind, layers(scene_, options)),
-        work_(make_work(view_, film_, sample_range(tables_, options),
+        schedule_(make_schedule(sample_range(tables_, options), options)),
+        work_(make_work(view_, film_, schedule_, sample_range(tables_, options),
                         feature_range(scene_, options, sample_range(tables_, options)))) {
     view_.sampler.seed += options.seed;
-    film_.set_samples(SampleSet({work_.samples}));
+    film_.set_samples(SampleSet({{work_.samples.first, kMostSamples}}));
     if (view_.integrator.from_lights) film_.add_splats(Splats(view_.film, tables_.filter));
     checkpoint_ = options.checkpoint;
     checkpoint_seconds_ = options.checkpoint_seconds;
@@ -97,51 +107,35 @@ class RenderSession final : public Render {
 
   /// Takes up what the checkpoint holds.
   void resume(Diagnostics& diagnostics) {
-    const Resumption resumption = resume_render(checkpoint_, traits_, work_, film_, diagnostics);
+    const Resumption resumption = resume_render(checkpoint_, traits_, schedule_, work_, film_, diagnostics);
     // What is damaged must not take the place of what is not.
     older_ = resumption == Resumption::older ? OlderGeneration::replace : OlderGeneration::keep;
   }
 
   RenderStatistics run(const std::function<void(const RenderProgress&)>& on_progress) override {
     Crew crew(view_, kernels_, film_, work_, threads_, cancelled_);
-    const std::uint64_t total = std::uint64_t{work_.samples.count()} * film_.width() * film_.height();
     const std::uint64_t resumed = crew.samples_done();
-    Stopwatch watch, since_progress;
-    const auto progress = [&] {
-      RenderProgress p;
-      p.samples_done = crew.samples_done();
-      p.samples_total = total;
-      p.samples_resumed = resumed;
-      p.elapsed_seconds = watch.seconds();
-      p.samples_per_second = static_cast<double>(p.samples_done - resumed) / std::max(p.elapsed_seconds, 1e-9);
-      p.relative_error = crew.relative_error();
-      p.checkpoint_error = checkpoint_error_;
-      return p;
-    };
-    while (!work_.done() && !cancelled_.load(std::memory_order_relaxed)) {
-      const Stopwatch since_save;
-      const Crew::Tick tick{tick_interval(), [&] {
-                              if (on_progress && since_progress.seconds() >= kProgressSeconds) {
-                                since_progress = {};
-                                on_progress(progress());
-                              }
-                              return checkpoint_.empty() || since_save.seconds() < checkpoint_seconds_;
-                            }};
-      if (!work_.features_done()) {
-        crew.run_features(tick);
-        watch = {};  // figures are those of the image, not of its layers
-      }
-      if (work_.features_done()) crew.run(tick);
-      save();
+    Stopwatch watch;
+    const auto progress = [&] { return progress_of(crew, resumed, watch.seconds()); };
+    bool is_complete = false;
+    while (!is_complete && !cancelled_.load(std::memory_order_relaxed)) {
+      reach_goal(crew, watch, on_progress ? [&] { on_progress(progress()); } : std::function<void()>{});
+      const double seconds = watch.seconds();
+      is_complete = schedule_.is_over(seconds);
+      if (!work_.done() || is_complete) continue;
+      const double taken = static_cast<double>(crew.samples_done() - resumed) / pixels();
+      std::optional<SampleGoal> next = schedule_.next(work_.grid, film_, work_.goal, seconds, taken);
+      is_complete = !next;
+      if (next) work_.set_goal(*std::move(next));
     }
 
     RenderStatistics s = crew.statistics();
     s.samples_resumed = resumed;
     s.seconds = watch.seconds();
-    s.cancelled = !work_.done();
+    s.cancelled = !is_complete;
     s.has_image = s.samples > 0 && work_.features_done();
     s.checkpoint_error = checkpoint_error_;
-    s.relative_error = film_.error({0, 0, film_.width(), film_.height()}).relative();
+    s.error = film_.error({0, 0, film_.width(), film_.height()}).relative();
     s.isa = kernels_.name;
     s.lanes = static_cast<int>(kernels_.lanes);
     s.samples_of_pixels = !view_.integrator.from_lights;
@@ -149,7 +143,8 @@ class RenderSession final : public Render {
     if (on_progress) {
       RenderProgress last = progress();
       last.elapsed_seconds = s.seconds;
-      last.relative_error = s.relative_error;
+      last.error = s.error;
+      if (is_complete) last.fraction = 1, last.seconds_left = 0, last.samples_total = last.samples_done;
       on_progress(last);
     }
     return s;
@@ -166,6 +161,51 @@ class RenderSession final : public Render {
     return std::chrono::milliseconds(std::max(static_cast<int>(seconds * 1000), 1));
   }
 
+  double pixels() const { return static_cast<double>(film_.width()) * film_.height(); }
+
+  /// Until the goal is reached, the rendering is cancelled or time is up. `tell` is called now and then if there is one.
+  void reach_goal(Crew& crew, Stopwatch& watch, const std::function<void()>& tell) {
+    Stopwatch since_progress;
+    bool has_features = work_.features_done();
+    const auto goes_on = [&] {
+      return !cancelled_.load(std::memory_order_relaxed) && !(has_features && schedule_.is_over(watch.seconds()));
+    };
+    while (!work_.done() && goes_on()) {
+      const Stopwatch since_save;
+      const Crew::Tick tick{tick_interval(), [&] {
+                              if (tell && since_progress.seconds() >= kProgressSeconds) {
+                                since_progress = {};
+                                tell();
+                              }
+                              return goes_on() && (checkpoint_.empty() || since_save.seconds() < checkpoint_seconds_);
+                            }};
+      if (!has_features) {
+        crew.run_features(tick);
+        has_features = work_.features_done();
+        watch = {};  // figures, and the time that there is, are those of the image, not of its layers
+      }
+      if (has_features) crew.run(tick);
+      save();
+    }
+  }
+
+  RenderProgress progress_of(Crew& crew, std::uint64_t resumed, double seconds) const {
+    RenderProgress p;
+    p.samples_done = crew.samples_done();
+    p.samples_total = work_.goal.total(work_.grid);
+    p.samples_resumed = resumed;
+    p.elapsed_seconds = seconds;
+    const double taken = static_cast<double>(p.samples_done - resumed);
+    p.samples_per_second = taken / std::max(seconds, 1e-9);
+    p.error = crew.relative_error();
+    const Outlook outlook =
+        schedule_.outlook(seconds, p.error, static_cast<double>(p.samples_done) / pixels(), taken / pixels());
+    p.fraction = outlook.fraction;
+    p.seconds_left = outlook.seconds_left;
+    p.checkpoint_error = checkpoint_error_;
+    return p;
+  }
+
   void save() {
     if (checkpoint_.empty()) return;
     checkpoint_error_ = save_render(checkpoint_, traits_, form_, work_, film_, older_).error;
@@ -179,6 +219,7 @@ class RenderSession final : public Render {
   SceneView view_;
   int threads_;
   Film film_;
+  SampleSchedule schedule_;
   Work work_;
   std::string checkpoint_;
   double checkpoint_seconds_ = 0;
@@ -202,6 +243,18 @@ std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& 
   if (options.threads < 0 || options.threads > kMaxThreads) {
     diagnostics.error({}, "number of threads is " + std::to_string(options.threads),
                       "0 (one per hardware thread) to " + std::to_string(kMaxThreads));
+  }
+  if (!(options.target_error >= 0 && options.target_error < 1)) {
+    diagnostics.error({}, fmt::format("target error is {}", options.target_error), "more than 0 and less than 1");
+  }
+  if (!(options.seconds >= 0)) diagnostics.error({}, fmt::format("time is {} s", options.seconds), "more than 0");
+  const bool by_steps = options.target_error > 0 || options.seconds > 0 || options.adaptive;
+  if (by_steps && options.samples) {
+    diagnostics.error({}, "samples of a range are taken all",
+                      "no range, or neither an error, nor a time, nor adaptivity");
+  }
+  if (options.adaptive && scene.tables().tables.integrator.from_lights) {
+    diagnostics.error({}, "adaptive sampling with paths that begin at the lights", "another integrator than ptracer");
   }
   const AccelKind accel = choose_accel(accelerator_for(scene, options), scene.tables().tables,
                                        kernels != nullptr ? kernels->lanes : 1, diagnostics);

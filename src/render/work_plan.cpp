@@ -95,8 +95,8 @@ std::uint64_t WorkPlan::blocks_done(std::uint32_t done) const {
   return done >= numbers_.end ? blocks_ : (done - numbers_.first) / block_;
 }
 
-WaveJob WorkPlan::remaining(WaveJob job, std::uint32_t done) const {
-  const std::uint32_t end = job.first_sample + job.sample_count;
+WaveJob WorkPlan::remaining(WaveJob job, std::uint32_t done, std::uint32_t goal) const {
+  const std::uint32_t end = std::clamp(origin_ + goal, job.first_sample, job.first_sample + job.sample_count);
   job.first_sample = std::clamp(origin_ + done, job.first_sample, end);
   job.sample_count = end - job.first_sample;
   return job;
@@ -114,10 +114,10 @@ std::vector<WorkPlan> plan_passes(const TileGrid& grid, SampleRange samples) {
   return passes;
 }
 
-bool is_possible(const TileGrid& grid, SampleRange samples, const TileProgress& progress) {
-  if (progress.size() != grid.tile_count()) return false;
-  for (const std::uint32_t done : progress) {
-    if (done > samples.count()) return false;
+bool is_possible(const TileGrid& grid, SampleRange samples, const TileProgress& goal, const TileProgress& progress) {
+  if (progress.size() != grid.tile_count() || goal.size() != progress.size()) return false;
+  for (std::size_t tile = 0; tile < progress.size(); ++tile) {
+    if (progress[tile] > goal[tile] || goal[tile] > samples.count()) return false;
   }
   for (const WorkPlan& pass : plan_passes(grid, samples)) {
     for (std::uint64_t area = 0; area < pass.area_count(); ++area) {

@@ -36,6 +36,7 @@ class WorkPlan {
 
   std::uint64_t wave_count() const { return blocks_ * areas_; }
   std::uint64_t area_count() const { return areas_; }
+  std::uint32_t areas_per_row() const { return areas_x_; }
   std::uint64_t area_of(std::uint64_t wave) const { return wave % areas_; }
   std::uint64_t block_of(std::uint64_t wave) const { return wave / areas_; }
   /// All areas take their first block of samples, then all their second, ...
@@ -50,8 +51,8 @@ class WorkPlan {
   void set_progress_of(std::uint64_t area, std::uint32_t done, TileProgress& progress) const;
   /// How many blocks are on the film of an area that has come so far.
   std::uint64_t blocks_done(std::uint32_t done) const;
-  /// What is left of a wave's job in an area that has come so far; it may have no samples.
-  WaveJob remaining(WaveJob job, std::uint32_t done) const;
+  /// What is left of a wave's job in an area that has come so far and is to come to `goal`; it may have no samples.
+  WaveJob remaining(WaveJob job, std::uint32_t done, std::uint32_t goal) const;
 
  private:
   /// Calls visit(tile) for the tiles of an area.
@@ -69,8 +70,8 @@ class WorkPlan {
 /// interrupted early has no holes; the second completes the first block.
 std::vector<WorkPlan> plan_passes(const TileGrid& grid, SampleRange samples);
 
-/// Whether an image may have come so far when `count` samples of each pixel are asked for: none has more, and tiles
-/// that come in one wave have come equally far.
-bool is_possible(const TileGrid& grid, SampleRange samples, const TileProgress& progress);
+/// Whether an image may have come so far on the way to `goal`: no tile has more, and those that come in one wave have come
+/// equally far.
+bool is_possible(const TileGrid& grid, SampleRange samples, const TileProgress& goal, const TileProgress& progress);
 
 }  // namespace norrsken

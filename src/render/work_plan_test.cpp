@@ -32,7 +32,7 @@ class Film {
         const std::uint32_t done = plan.progress_of(area, progress_);
         if (plan.block_of(i) < plan.blocks_done(done)) continue;
         if (most-- == 0) return;
-        const WaveJob job = plan.remaining(plan.wave(i), done);
+        const WaveJob job = plan.remaining(plan.wave(i), done, samples.count());
         EXPECT_GT(job.sample_count, 0u);
         EXPECT_LE(job.slot_count(), std::max(grid_.slots, kMaxLanes));
         take(job);
@@ -61,6 +61,11 @@ class Film {
   TileProgress progress_;
 };
 
+/// The same number of samples for all tiles.
+bool is_possible_to(const TileGrid& grid, SampleRange samples, const TileProgress& progress) {
+  return is_possible(grid, samples, TileProgress(grid.tile_count(), samples.count()), progress);
+}
+
 /// Every sample of every pixel exactly once, a pixel's samples in ascending order, and no wave too large.
 TEST(WorkPlan, CoversEverySampleOnceAndInOrder) {
   for (const Case& c : kCases) {
@@ -84,9 +89,9 @@ TEST(WorkPlan, GoesOnFromAnywhere) {
       SampleRange asked = c.samples;
       for (int part = 0; part < 6; ++part) {
         film.take(asked, random() % 12);
-        EXPECT_TRUE(is_possible(grid, asked, film.progress()));
+        EXPECT_TRUE(is_possible_to(grid, asked, film.progress()));
         asked.end += static_cast<std::uint32_t>(random() % 20);
-        EXPECT_TRUE(is_possible(grid, asked, film.progress()))
+        EXPECT_TRUE(is_possible_to(grid, asked, film.progress()))
             << c.width << " x " << c.height << ", now to " << asked.end;
       }
       film.take(asked);
@@ -101,17 +106,17 @@ TEST(WorkPlan, FewerSamplesAreAskedForOnlyIfNoneHasMore) {
   film.take({0, 40}, 400);
   const std::uint32_t most = *std::ranges::max_element(film.progress());
   ASSERT_EQ(most, 16u);
-  EXPECT_TRUE(is_possible(grid, {0, most}, film.progress()));
-  EXPECT_FALSE(is_possible(grid, {0, most - 1}, film.progress()));
+  EXPECT_TRUE(is_possible_to(grid, {0, most}, film.progress()));
+  EXPECT_FALSE(is_possible_to(grid, {0, most - 1}, film.progress()));
 }
 
 TEST(WorkPlan, KnowsWhatCannotBe) {
   const TileGrid grid(200, 150, 1024);
-  EXPECT_TRUE(is_possible(grid, {0, 16}, TileProgress(grid.tile_count())));
-  EXPECT_FALSE(is_possible(grid, {0, 16}, TileProgress(grid.tile_count() + 1)));
+  EXPECT_TRUE(is_possible_to(grid, {0, 16}, TileProgress(grid.tile_count())));
+  EXPECT_FALSE(is_possible_to(grid, {0, 16}, TileProgress(grid.tile_count() + 1)));
   TileProgress uneven(grid.tile_count());
   uneven[0] = 1;
-  EXPECT_FALSE(is_possible(grid, {0, 16}, uneven)) << "a tile alone has its first sample";
+  EXPECT_FALSE(is_possible_to(grid, {0, 16}, uneven)) << "a tile alone has its first sample";
 }
 
 /// An image that is interrupted early has no holes.

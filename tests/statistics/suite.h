@@ -69,6 +69,7 @@ inline constexpr Family kSuite[] = {
     {"room.area_whitted", kPerRoom},
     {"room.point_whitted", kPerRoom},
     {"room.area_4_shadow_rays", kPerRoom},
+    {"adaptive.room", kPerPicture},
     {"agreement.shadow_rays", 2 * kPerRoom},
     {"agreement.samplers", kPerRoom},
     {"agreement.odd_samples", kPerRoom},

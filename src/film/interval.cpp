@@ -1,0 +1,64 @@
+#include "film/interval.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+namespace norrsken {
+namespace {
+
+/// How far a pixel's neighbours are away at most, in pixels, and the share of theirs in its variance.
+constexpr std::uint32_t kNeighborReach = 5;
+constexpr double kNeighborShare = 0.85;
+/// Of the power mean of their variances: between the mean of variances, which the noisiest rule, and that of deviations.
+constexpr double kExponent = 0.75;
+
+constexpr double kNormal = 1.959964;  // 97.5 % of the normal distribution
+
+/// Powers of the variances of one sample, added up over pixels, and how many pixels those were.
+struct Pool {
+  double power = 0, pixels = 0;
+};
+
+/// Each element becomes the sum of those up to kNeighborReach away, of `count` elements that lie `stride` apart.
+void sum_neighbors(std::span<Pool> pools, std::size_t first, std::size_t count, std::size_t stride,
+                   std::vector<Pool>& line) {
+  line.resize(count);
+  for (std::size_t i = 0; i < count; ++i) line[i] = pools[first + i * stride];
+  for (std::size_t i = 0; i < count; ++i) {
+    Pool sum;
+    const std::size_t begin = i < kNeighborReach ? 0 : i - kNeighborReach;
+    for (std::size_t j = begin; j < std::min<std::size_t>(i + kNeighborReach + 1, count); ++j) {
+      sum.power += line[j].power;
+      sum.pixels += line[j].pixels;
+    }
+    pools[first + i * stride] = sum;
+  }
+}
+
+}  // namespace
+
+std::vector<float> confidence_intervals(std::uint32_t width, std::uint32_t height,
+                                        const std::vector<PixelEstimate>& estimates,
+                                        const std::vector<std::uint32_t>& samples) {
+  std::vector<Pool> pools(estimates.size());
+  for (std::size_t i = 0; i < pools.size(); ++i) {
+    if (estimates[i].known) pools[i] = {std::pow(estimates[i].variance * samples[i], kExponent), 1};
+  }
+  std::vector<Pool> line;
+  for (std::size_t y = 0; y < height; ++y) sum_neighbors(pools, y * width, width, 1, line);
+  for (std::size_t x = 0; x < width; ++x) sum_neighbors(pools, x, height, width, line);
+
+  std::vector<float> intervals(estimates.size(), std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    if (!(pools[i].pixels > 0) || samples[i] == 0) continue;
+    const double around = std::pow(pools[i].power / pools[i].pixels, 1 / kExponent) / samples[i];
+    const double own = estimates[i].known ? estimates[i].variance : around;
+    intervals[i] = static_cast<float>(kNormal * std::sqrt(own + kNeighborShare * (around - own)));
+  }
+  return intervals;
+}
+
+}  // namespace norrsken

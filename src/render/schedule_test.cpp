@@ -1,0 +1,101 @@
+#include "render/schedule.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tables/wave_types.h"
+
+namespace norrsken {
+namespace {
+
+constexpr std::uint32_t kWidth = 160, kHeight = 60, kTaken = 16;
+
+/// Tiles of 16 x 4 pixels with 16 independent samples each, whose deviations are given by tile.
+class Allocation : public ::testing::Test {
+ protected:
+  Allocation() : grid_(kWidth, kHeight, 1024), film_(settings(), SamplerKind::independent) {}
+
+  static FilmSettings settings() {
+    FilmSettings s;
+    s.width = kWidth, s.height = kHeight;
+    return s;
+  }
+  std::size_t tile(std::uint32_t column, std::uint32_t row) const { return std::size_t{row} * grid_.columns + column; }
+
+  void take_samples(const std::vector<double>& deviations) {
+    const FilmView film = film_.view();
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+      for (std::uint32_t x = 0; x < kWidth; ++x) {
+        const double deviation = deviations[tile(x / grid_.tile_width, y / grid_.tile_height)];
+        const std::size_t pixel = std::size_t{y} * kWidth + x;
+        film.counts[pixel] = kTaken;
+        for (std::uint32_t c = 0; c < 3; ++c) {
+          film.sum_plane(c)[pixel] = kTaken;
+          film.sum_plane(3 + c)[pixel] = kTaken * (1 + deviation * deviation);
+        }
+      }
+    }
+  }
+  SampleGoal allocate(std::uint32_t mean) {
+    const SampleGoal reached = SampleGoal::uniform(grid_, kTaken, true);
+    SampleGoal goal = allocate_samples(grid_, film_, reached, mean);
+    EXPECT_LE(goal.total(grid_), std::uint64_t{mean} * kWidth * kHeight);
+    for (std::size_t i = 0; i < goal.of_tile.size(); ++i) EXPECT_GE(goal.of_tile[i], std::max(kTaken, mean / 4)) << i;
+    return goal;
+  }
+
+  TileGrid grid_;
+  Film film_;
+};
+
+TEST_F(Allocation, GoesWithTheDeviation) {
+  ASSERT_EQ(grid_.tile_height, 4u);
+  std::vector<double> deviations(grid_.tile_count(), 1);
+  for (std::uint32_t row = 0; row < grid_.rows; ++row) {
+    for (std::uint32_t column = 0; column < grid_.columns / 2; ++column) deviations[tile(column, row)] = 3;
+  }
+  take_samples(deviations);
+  const SampleGoal goal = allocate(512);
+  // Half of the tiles get three times as many: 256 and 768, in blocks of 16.
+  EXPECT_NEAR(goal.of_tile[tile(1, 7)], 768, 32);
+  EXPECT_NEAR(goal.of_tile[tile(8, 7)], 256, 32);
+  EXPECT_GT(static_cast<double>(goal.total(grid_)), 0.95 * 512 * kWidth * kHeight);
+}
+
+/// A tile's own samples must not decide how many it gets.
+TEST_F(Allocation, IsDecidedByTheNeighbors) {
+  std::vector<double> deviations(grid_.tile_count(), 1);
+  take_samples(deviations);
+  const SampleGoal even = allocate(64);
+  deviations[tile(5, 7)] = 100;
+  take_samples(deviations);
+  const SampleGoal goal = allocate(64);
+  EXPECT_LE(goal.of_tile[tile(5, 7)], even.of_tile[tile(5, 7)]);
+  EXPECT_GT(goal.of_tile[tile(5, 8)], even.of_tile[tile(5, 8)]);
+  EXPECT_GT(goal.of_tile[tile(4, 7)], even.of_tile[tile(4, 7)]);
+}
+
+TEST_F(Allocation, NoNoiseNeedsNoMoreThanTheLeast) {
+  take_samples(std::vector<double>(grid_.tile_count(), 0));
+  const SampleGoal goal = allocate(128);
+  EXPECT_TRUE(std::ranges::all_of(goal.of_tile, [](std::uint32_t n) { return n == 32; }));
+}
+
+TEST(Outlook, IsThatOfWhatComesFirst) {
+  const auto outlook = [](const RenderOptions& options) {
+    // 20 samples per pixel in 10 seconds, to an error of 2 %
+    return SampleSchedule(options, 100).outlook(10, {0.018, 0.016, 0.02}, 20, 20);
+  };
+  EXPECT_DOUBLE_EQ(outlook({}).fraction, 0.2);
+  EXPECT_DOUBLE_EQ(outlook({}).seconds_left, 40);
+  EXPECT_NEAR(outlook({.target_error = 0.01}).fraction, 0.25, 1e-12);
+  EXPECT_NEAR(outlook({.target_error = 0.01}).seconds_left, 30, 1e-9);
+  EXPECT_DOUBLE_EQ(outlook({.seconds = 15}).fraction, 10.0 / 15);
+  EXPECT_DOUBLE_EQ(outlook({.seconds = 15}).seconds_left, 5);
+  EXPECT_NEAR(outlook({.target_error = 0.01, .seconds = 15}).seconds_left, 5, 1e-9);
+  EXPECT_EQ(SampleSchedule({}, 100).outlook(0.1, {}, 0, 0).seconds_left, -1);
+}
+
+}  // namespace
+}  // namespace norrsken
