@@ -9,6 +9,8 @@ endfunction()
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)
 norrsken_script_test(check_includes.self_test ${scripts}/check_includes.py --self-test)
 norrsken_script_test(check_includes ${scripts}/check_includes.py ${PROJECT_SOURCE_DIR})
+norrsken_script_test(promises.self_test ${scripts}/check_promises.py --self-test)
+norrsken_script_test(promises ${scripts}/check_promises.py)
 norrsken_script_test(scene_docs ${scripts}/make_scene_docs.py --check)
 norrsken_script_test(check_symbols.self_test ${scripts}/check_symbols.py --self-test ${CMAKE_CXX_COMPILER})
 

@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -95,6 +96,13 @@ TEST_F(Cli, WrongCommandLinesAre64AndLeaveNothing) {
   expect_usage({"render", "hexagon_room", "--sppp", "3"}, "unknown option '--sppp', did you mean '--spp'?");
   expect_usage({"render", "hexagon_room", "--spp", "0"}, "--spp: found '0', accepted is a whole number from 1 to");
   expect_usage({"render", "hexagon_room", "--size", "800"}, "--size: found '800', accepted is WIDTHxHEIGHT");
+  expect_usage({"render", "hexagon_room", "--target-error", "2"},
+               "--target-error: found '2', accepted is a share greater than 0 and less than 1, as in 1% or 0.01");
+  expect_usage({"render", "hexagon_room", "--time", "30"}, "--time: found '30', accepted is a time with its unit");
+  expect_usage({"render", "hexagon_room", "--samples", "0:4", "--checkpoint", "x", "--adaptive"},
+               "--samples takes all samples of a range");
+  expect_usage({"render", "hexagon_room", "--pixel", "1,1", "--sample", "0", "--time", "1s"},
+               "--pixel prints one sample");
   expect_usage({"render", "hexagon_room", "-Dspp"}, "-D: found 'spp', accepted is NAME=VALUE");
   expect_usage({"render", "hexagon_room", "-Dlite=point"}, "$lite");
   expect_usage({"render", "hexagon_room", "--isa", "mmx"}, "accepted: auto");
@@ -224,6 +232,24 @@ TEST_F(Cli, JsonTellsStartProgressDone) {
   EXPECT_EQ(events.back()["interrupted"], false);
   EXPECT_EQ(events.back()["files"], json::array({"hexagon_room.exr"}));
   EXPECT_GT(events.back()["closest_rays"], 40 * 30 * 4 - 1);
+}
+
+TEST_F(Cli, EndsAtAnErrorOrATime) {
+  const std::vector<std::string> room = {"render", "hexagon_room", "-Dshadow_rays=1", "--size", "40x30"};
+  const auto events = parse_lines(run(room + std::vector<std::string>{"--target-error", "50%", "--json"}).out);
+  ASSERT_GE(events.size(), 2u);
+  EXPECT_EQ(events.front()["target_error"], 0.5);
+  EXPECT_EQ(events.front()["samples_per_pixel"], nullptr);
+  const json& done = events.back();
+  EXPECT_EQ(done["interrupted"], false);
+  EXPECT_LE(done["relative_error_interval"][1], 0.5);
+  EXPECT_LE(done["relative_error_interval"][0], done["relative_error"]);
+  EXPECT_EQ(events[events.size() - 2]["fraction"], 1);
+
+  const ProcessResult timed = run(room + std::vector<std::string>{"--time", "0.3s", "--spp", "1000000", "--adaptive"});
+  EXPECT_EQ(timed.status, 0) << timed.err;
+  EXPECT_THAT(timed.err, AllOf(HasSubstr("at most 1000000 samples per pixel on average, for 0.3s"),
+                               ContainsRegex("estimated error [0-9.]+ % \\([0-9.]+ % to [0-9.]+ %\\)")));
 }
 
 TEST_F(Cli, InterruptSavesAndSays) {

@@ -3,7 +3,7 @@
 #include <array>
 
 // Compiled in, so that whoever links the library needs nothing more.
-#define XXH_INLINE_ALL
+#define XXH_INLINE_ALL  // NOLINT(readability-identifier-naming): the library asks for it
 #include <xxhash.h>
 
 namespace norrsken {
