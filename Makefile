@@ -55,6 +55,20 @@ asan-ubsan tsan:
 	cmake --build build/$@ -j $(JOBS)
 	ctest --preset $@ -j $(JOBS)
 
+# The fast part of the suite for `make test`: what reads files, and what has threads.
+SANITIZED_asan-ubsan := text_test parameters_test mitsuba_xml_test mitsuba_element_test xml_document_test obj_test ply_test \
+  serialized_test vol_test curves_test section_file_test image_file_test film_test work_plan_test cli_arguments_test \
+  repeatability_test traps_test path_trace_test stopping_test
+SANITIZED_tsan := work_plan_test repeatability_test stopping_test cli_interrupt_test
+
+.PHONY: sanitize-quick asan-ubsan-quick tsan-quick
+sanitize-quick: asan-ubsan-quick tsan-quick
+asan-ubsan-quick tsan-quick: %-quick:
+	@scripts/install_dependencies.sh test
+	cmake --preset $* -DNORRSKEN_WARNINGS_AS_ERRORS=ON -DNORRSKEN_ISAS=scalar
+	cmake --build build/$* -j $(JOBS) --target $(SANITIZED_$*)
+	ctest --preset $* -j $(JOBS) --exclude-regex '_NOT_BUILT'
+
 .PHONY: release-all
 release-all:
 	@scripts/install_dependencies.sh test

@@ -28,6 +28,8 @@ class LoadedBsdf {
   virtual float pdf_sa(const Vec3f& wo, const Vec3f& wi) const = 0;
   virtual BsdfSample sample(const Vec3f& wo, float lobe, Vec2f direction) const = 0;
   virtual Vec3f albedo() const = 0;
+  /// The index of refraction beyond over that on this side, for what `evaluate` says of directions that cross.
+  virtual float refracted_eta() const = 0;
 };
 
 template <class Model>
@@ -41,6 +43,13 @@ class LoadedModel final : public LoadedBsdf {
     return Model::sample(parameters_, wo, Float(lobe), direction);
   }
   Vec3f albedo() const override { return Model::albedo(parameters_); }
+  float refracted_eta() const override {
+    if constexpr (requires { Model::refracted_eta(parameters_); }) {
+      return Model::refracted_eta(parameters_).v;
+    } else {
+      return 1;
+    }
+  }
 
  private:
   typename Model::Parameters parameters_;

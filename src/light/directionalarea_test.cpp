@@ -6,6 +6,7 @@
 
 #include "light/emit_lights.h"
 #include "light/lit_scene_testing.h"
+#include "tests/statistics/statistical_test.h"
 
 namespace norrsken::isa_host {
 namespace {
@@ -33,15 +34,16 @@ LitScene along_normals(const std::string& shape, const norrsken::testing::Files&
 TEST(AlongNormals, APlaneSendsParallelRays) {
   const LitScene scene =
       along_normals(R"(rectangle"><transform name="to_world"><scale x="2"/><translate z="1"/></transform>)");
-  double x2 = 0, y2 = 0;
+  statistics::StatisticalTest test;
+  statistics::Mean x2, y2;
   for_emitted_rays(scene, [&](const glm::dvec3& o, const glm::dvec3& d, double weight) {
     EXPECT_NEAR(glm::length(d - kUp), 0, 1e-6);
     EXPECT_NEAR(o.z, 1, 1e-4);
-    x2 += o.x * o.x / 1000, y2 += o.y * o.y / 1000;
+    x2.add(o.x * o.x), y2.add(o.y * o.y);
     EXPECT_NEAR(weight, 3 * 8, 1e-4);  // radiance times area
   });
-  EXPECT_NEAR(x2, 4.0 / 3, 0.15);
-  EXPECT_NEAR(y2, 1.0 / 3, 0.05);
+  EXPECT_TRUE(test.agree(x2.estimate(), 4.0 / 3, "square of x"));
+  EXPECT_TRUE(test.agree(y2.estimate(), 1.0 / 3, "square of y"));
 }
 
 TEST(AlongNormals, ASphereSendsAFan) {

@@ -9,6 +9,7 @@
 
 #include "light/light_choice.h"
 #include "light/lit_scene_testing.h"
+#include "tests/statistics/statistical_test.h"
 
 namespace norrsken::isa_host {
 namespace {
@@ -98,10 +99,11 @@ TEST_P(ManyLights, ProbabilitiesSumToOneEverywhere) {
 }
 
 TEST_P(ManyLights, AreChosenAsOftenAsTheirProbabilitySays) {
+  statistics::StatisticalTest test;
   std::mt19937_64 random(2);
   for (const glm::dvec3& p : {glm::dvec3(0.2, 0.1, -0.3), glm::dvec3(4, -4.5, 3), glm::dvec3(30, 2, 1)}) {
     constexpr int kSamples = 300'000;
-    std::vector<int> chosen(count());
+    std::vector<double> chosen(count());
     for (int i = 0; i < kSamples; ++i) {
       const Vec2f u{float(uniform(random)), float(uniform(random))};
       const PickedLight picked = pick_light_by_place(scene.view, lanes(p), u, kOn);
@@ -110,21 +112,10 @@ TEST_P(ManyLights, AreChosenAsOftenAsTheirProbabilitySays) {
         EXPECT_NEAR(double{picked.prob.v} / prob(picked.light.v, p), 1, 1e-5);
       }
     }
-    double chi2 = 0, rest = 0, rest_expected = 0;
-    int cells = 0;
-    for (std::uint32_t i = 0; i < count(); ++i) {
-      const double expected = kSamples * prob(i, p);
-      if (expected < 10) {
-        rest += chosen[i], rest_expected += expected;
-        continue;
-      }
-      chi2 += (chosen[i] - expected) * (chosen[i] - expected) / expected;
-      ++cells;
-    }
-    if (rest_expected >= 10) chi2 += (rest - rest_expected) * (rest - rest_expected) / rest_expected, ++cells;
-    // Wilson and Hilferty's approximation.
-    const double n = cells - 1;
-    EXPECT_LT((std::cbrt(chi2 / n) - (1 - 2 / (9 * n))) / std::sqrt(2 / (9 * n)), 4.0) << chi2 << " of " << cells;
+    std::vector<double> probs;
+    for (std::uint32_t i = 0; i < count(); ++i) probs.push_back(prob(i, p));
+    EXPECT_TRUE(test.chi_square(statistics::cells_of_counts(chosen, probs), {"light", ""},
+                                fmt::format("lights chosen at {}, {}, {}", p.x, p.y, p.z)));
   }
 }
 

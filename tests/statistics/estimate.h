@@ -22,6 +22,24 @@ struct Estimate {
   static Estimate from_replicates(std::span<const double> values);
 };
 
+/// Collects independent values of one quantity.
+class Mean {
+ public:
+  void add(double value) {
+    // Welford 1962: squares of deviations from the mean so far.
+    ++count_;
+    const double step = value - mean_;
+    mean_ += step / count_;
+    squares_ += step * (value - mean_);
+  }
+  /// Of at least two values.
+  Estimate estimate() const { return {mean_, squares_ / (count_ - 1.0) / count_, count_}; }
+
+ private:
+  int count_ = 0;
+  double mean_ = 0, squares_ = 0;
+};
+
 /// A rectangle of pixels, [x0, x1) x [y0, y1), over which images are averaged before they are compared.
 struct Region {
   std::string sort;  ///< "whole image", "4 x 4 blocks": summaries name the worst of each sort
