@@ -118,18 +118,18 @@ TEST(TimeLimit, ProgressTellsTheTimeLeft) {
 
 /// Interrupted again and again, resumed each time.
 TEST(Steps, InterruptionsChangeNoBit) {
-  const Scene scene = room(160);
+  const Scene scene = room(96);
   const std::string file =
       (std::filesystem::temp_directory_path() / ("norrsken_steps_" + std::to_string(getpid()))).string();
   for (const bool adaptive : {false, true}) {
-    RenderOptions options{.target_error = 0.12, .adaptive = adaptive, .threads = kThreads};
+    RenderOptions options{.target_error = 0.18, .adaptive = adaptive, .threads = kThreads};
     const Image whole = render(scene, options).image;
     options.checkpoint = file;
     int interruptions = 0;
     for (bool cancelled = true; cancelled; ++interruptions) {
       const auto rendering = create(scene, options);
       std::jthread killer([&](const std::stop_token& stop) {
-        for (int i = 0; i < 40 + 15 * interruptions && !stop.stop_requested(); ++i) {
+        for (int i = 0; i < 20 + 20 * interruptions && !stop.stop_requested(); ++i) {
           std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         if (!stop.stop_requested()) rendering->cancel();
