@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+#include <optional>
 #include <string>
-#include <vector>
+
+#include "tests/statistics/statistical_test.h"
 
 namespace norrsken::isa_host {
 namespace {
@@ -87,56 +88,28 @@ TEST(Microfacet, MasksWhatFacesAway) {
   }
 }
 
-/// Sampled normals against their density: chi-square over a grid of slopes and what lies outside of it.
+/// Sampled normals against their density, over their slopes in units of the roughness.
 TEST(Microfacet, VisibleNormalsFollowTheirDensity) {
-  constexpr int kSide = 20, kInner = 12, kSamples = 1'000'000;
   constexpr double kReach = 3;
+  statistics::StatisticalTest test;
   for (const Case& c : kCases) {
     for (const Vec3f& wo : kViews) {
-      std::mt19937 random(3);
-      std::uniform_real_distribution<float> unit(0, 1);
-      std::vector<double> observed(kSide * kSide + 1);
-      for (int i = 0; i < kSamples; ++i) {
-        const float a = unit(random), b = unit(random);
-        const Vec3f m = c.facets().sample_visible(wo, {Float(a), Float(b)});
-        ASSERT_GE(dot(m, wo).v, -1e-4f) << c.name();
-        const double x = -double(m.x.v / m.z.v / c.alpha_u), y = -double(m.y.v / m.z.v / c.alpha_v);
-        const int column = int(std::floor((x / kReach + 1) / 2 * kSide));
-        const int row = int(std::floor((y / kReach + 1) / 2 * kSide));
-        const bool inside = column >= 0 && column < kSide && row >= 0 && row < kSide;
-        ++observed[std::size_t(inside ? row * kSide + column : kSide * kSide)];
-      }
-      std::vector<double> expected(kSide * kSide + 1);
-      expected.back() = 1;
-      for (int row = 0; row < kSide; ++row) {
-        for (int column = 0; column < kSide; ++column) {
-          double cell = 0;
-          for (int i = 0; i < kInner; ++i) {
-            for (int k = 0; k < kInner; ++k) {
-              const SlopePoint p = at_slopes(c, ((column + (k + 0.5) / kInner) / kSide * 2 - 1) * kReach,
-                                             ((row + (i + 0.5) / kInner) / kSide * 2 - 1) * kReach);
-              cell += double(c.facets().visible_pdf_sa(wo, p.m).v) * p.solid_angle;
-            }
-          }
-          cell *= std::pow(2 * kReach / kSide / kInner, 2);
-          expected[std::size_t(row * kSide + column)] = cell;
-          expected.back() -= cell;
-        }
-      }
-      double chi2 = 0, freedom = -1, pooled_seen = 0, pooled = 0;
-      for (std::size_t i = 0; i < expected.size(); ++i) {
-        const double wanted = expected[i] * kSamples;
-        if (wanted < 10) {
-          pooled += std::max(0.0, wanted), pooled_seen += observed[i];
-          continue;
-        }
-        chi2 += (observed[i] - wanted) * (observed[i] - wanted) / wanted, ++freedom;
-      }
-      if (pooled >= 10) chi2 += (pooled_seen - pooled) * (pooled_seen - pooled) / pooled, ++freedom;
-      // Wilson and Hilferty: the cube root of chi-square over its freedom is nearly normal. 32 comparisons at 1 % in
-      // all (Sidak) are 3.4 standard deviations each.
-      const double spread = 2 / (9 * freedom), score = (std::cbrt(chi2 / freedom) - 1 + spread) / std::sqrt(spread);
-      EXPECT_LT(score, 3.4) << c.name() << ", view " << wo.z.v << ": chi-square " << chi2 << " of " << freedom;
+      const statistics::Sampling sampling{{{-kReach, -kReach}, {kReach, kReach}},
+                                          {"slope along u over alpha_u", "slope along v over alpha_v"},
+                                          [&](statistics::Random& random) -> std::optional<statistics::Point> {
+                                            const float a = random(), b = random();
+                                            const Vec3f m = c.facets().sample_visible(wo, {Float(a), Float(b)});
+                                            EXPECT_GE(dot(m, wo).v, -1e-4f) << c.name();
+                                            const double z{m.z.v}, x = -double{m.x.v} / z / double{c.alpha_u},
+                                                                   y = -double{m.y.v} / z / double{c.alpha_v};
+                                            if (!(std::abs(x) < kReach && std::abs(y) < kReach)) return std::nullopt;
+                                            return statistics::Point{x, y};
+                                          },
+                                          [&](const statistics::Point& slopes) {
+                                            const SlopePoint p = at_slopes(c, slopes[0], slopes[1]);
+                                            return double{c.facets().visible_pdf_sa(wo, p.m).v} * p.solid_angle;
+                                          }};
+      EXPECT_TRUE(test.follows_density(sampling, c.name() + ", view " + std::to_string(wo.z.v)));
     }
   }
 }

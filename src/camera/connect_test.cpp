@@ -5,14 +5,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <string>
 
 #include "camera/orthographic.h"
 #include "camera/perspective.h"
 #include "camera/thinlens.h"
 #include "compile/compile_testing.h"
 #include "math/frame.h"
+#include "tests/statistics/statistical_test.h"
 
 namespace norrsken::isa_host {
 namespace {
@@ -67,22 +72,88 @@ void expect_rays_to_be_found_again(const CameraRecord& c) {
   }
 }
 
-TEST(Connect, FindsRaysOfThePerspectiveCamera) {
-  expect_rays_to_be_found_again<Perspective>(
-      camera("perspective", R"(<float name="fov" value="80"/><float name="principal_point_offset_x" value="0.2"/>)"));
+/// Two cameras of every model of list.def; a model without any does not link.
+template <class Model>
+std::array<CameraRecord, 2> cameras();
+
+template <>
+std::array<CameraRecord, 2> cameras<Perspective>() {
+  return {
+      camera("perspective", R"(<float name="fov" value="80"/><float name="principal_point_offset_x" value="0.2"/>)"),
+      camera("perspective", R"(<float name="fov" value="25"/><string name="fov_axis" value="y"/>)")};
+}
+template <>
+std::array<CameraRecord, 2> cameras<ThinLens>() {
+  return {camera("thinlens", R"(<float name="fov" value="80"/><float name="aperture_radius" value="0.3"/>)"
+                             R"(<float name="focus_distance" value="3"/>)"),
+          camera("thinlens", R"(<float name="fov" value="60"/><float name="aperture_radius" value="0.8"/>)"
+                             R"(<float name="focus_distance" value="12"/>)")};
+}
+template <>
+std::array<CameraRecord, 2> cameras<Orthographic>() {
+  // The second is sheared: the film is not perpendicular to the rays.
+  return {camera("orthographic", "", R"(<scale x="3" y="0.5" z="1"/>)"),
+          camera("orthographic", "", R"(<rotate y="1" angle="30"/><scale x="2" y="1" z="1"/>)")};
 }
 
-TEST(Connect, FindsRaysOfTheThinLens) {
-  expect_rays_to_be_found_again<ThinLens>(
-      camera("thinlens", R"(<float name="fov" value="80"/><float name="aperture_radius" value="0.3"/>)"
-                         R"(<float name="focus_distance" value="3"/>)"));
+TEST(Connect, FindsTheRaysOfEveryCamera) {
+#define NORRSKEN_CAMERA(kind, Model) \
+  for (const CameraRecord& c : cameras<Model>()) expect_rays_to_be_found_again<Model>(c);
+#include "camera/list.def"
+#undef NORRSKEN_CAMERA
 }
 
-TEST(Connect, FindsRaysOfTheOrthographicCamera) {
-  expect_rays_to_be_found_again<Orthographic>(camera("orthographic", "", R"(<scale x="3" y="0.5" z="1"/>)"));
-  // Sheared: the film is not perpendicular to the rays.
-  expect_rays_to_be_found_again<Orthographic>(
-      camera("orthographic", "", R"(<rotate y="1" angle="30"/><scale x="2" y="1" z="1"/>)"));
+/// Rays of uniform film and lens positions meet a slanting plane with the density that connections from there have, over
+/// a rectangle that the whole lens sees.
+template <class Model>
+void expect_rays_to_have_the_density_of_connections(statistics::StatisticalTest& test, const std::string& kind) {
+  constexpr double kFilm = 200 * 100;
+  for (const CameraRecord& c : cameras<Model>()) {
+    const Vec3f ahead = broadcast(c.forward), beside = normalize(broadcast(c.du)), up = normalize(cross(beside, ahead));
+    const Vec3f middle = at(Model::sample(c, Float(100.0f), Float(50.0f), {Float(0.5f), Float(0.5f)}), 5);
+    const Vec3f normal = normalize(ahead + beside * Float(0.4f) - up * Float(0.3f));
+    const Frame plane = make_frame(normal);
+    const auto place = [&](const statistics::Point& p) {
+      return fma(plane.s, Float(float(p[0])), fma(plane.t, Float(float(p[1])), middle));
+    };
+    // The film's half width at the plane, roughly, of which a part is looked at.
+    const Vec3f edge = at(Model::sample(c, Float(100.0f), Float(100.0f), {Float(0.5f), Float(0.5f)}), 5) - middle;
+    const double reach = 0.3 * std::sqrt(number(dot(edge, edge)));
+    const int lens_side = Model::kUsesLens ? 8 : 1;
+    const statistics::Sampling sampling{
+        {{-reach, -reach}, {reach, reach}},
+        {"along the plane", "along the plane"},
+        [&](statistics::Random& random) -> std::optional<statistics::Point> {
+          const float px = 200 * random(), py = 100 * random(), u = random(), v = random();
+          const CameraRay ray = Model::sample(c, Float(px), Float(py), {Float(u), Float(v)});
+          const Float t = dot(middle - ray.origin, normal) / dot(ray.direction, normal);
+          const Vec3f q = at(ray, t.v) - middle;
+          const statistics::Point p{number(dot(q, plane.s)), number(dot(q, plane.t))};
+          return std::max(std::abs(p[0]), std::abs(p[1])) < reach ? std::optional(p) : std::nullopt;
+        },
+        [&](const statistics::Point& p) {
+          double sum = 0;
+          for (int i = 0; i < lens_side * lens_side; ++i) {
+            const auto share = [&](int k) {
+              return Float((static_cast<float>(k) + 0.5f) / static_cast<float>(lens_side));
+            };
+            const Vec3f there = place(p);
+            const CameraConnection found = Model::connect(c, there, {share(i % lens_side), share(i / lens_side)});
+            EXPECT_TRUE(found.valid.v);
+            EXPECT_TRUE(found.film.x.v > 0 && found.film.x.v < 200 && found.film.y.v > 0 && found.film.y.v < 100);
+            sum += number(found.density) * std::abs(number(dot(normalize(found.target - there), normal)));
+          }
+          return sum / (lens_side * lens_side) / kFilm;
+        }};
+    EXPECT_TRUE(test.follows_density(sampling, kind));
+  }
+}
+
+TEST(Connect, RaysHaveTheDensityOfConnections) {
+  statistics::StatisticalTest test;
+#define NORRSKEN_CAMERA(kind, Model) expect_rays_to_have_the_density_of_connections<Model>(test, #kind);
+#include "camera/list.def"
+#undef NORRSKEN_CAMERA
 }
 
 TEST(Connect, SeesBetweenTheClipPlanesOnly) {

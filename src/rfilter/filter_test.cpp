@@ -4,12 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "compile/compile_testing.h"
+#include "tests/statistics/statistical_test.h"
 
 namespace norrsken::isa_host {
 namespace {
@@ -152,6 +155,53 @@ TEST(Filter, OffsetsHaveTheFiltersDensity) {
       }
     }
     EXPECT_LT(worst, 1e-5);
+  }
+}
+
+/// Where samples lie, beside all other pixels and in a corner of the film; and their mean weight.
+TEST(Filter, SamplesFollowTheAbsoluteValue) {
+  statistics::StatisticalTest test;
+  std::vector<Known> filters = known_filters();
+  filters.push_back({"box", "", 0.5, [](double x) { return std::abs(x) <= 0.5 ? 1.0 : 0.0; }});
+#define NORRSKEN_RFILTER(name)                                                              \
+  EXPECT_TRUE(std::ranges::any_of(filters, [](const Known& k) { return k.type == #name; })) \
+      << "known_filters() needs " << #name;
+#include "rfilter/plugins.def"
+#undef NORRSKEN_RFILTER
+  for (const Known& known : filters) {
+    for (const bool border : {true, false}) {
+      const Row row(
+          compile(known.type, known.parameters, border ? R"(<boolean name="sample_border" value="true"/>)" : ""));
+      ASSERT_THAT(row.compiled.messages(), IsEmpty());
+      const std::uint32_t x = border ? 4 : 0, y = border ? 2 : 0;
+      const auto draw = [&](statistics::Random& random) {
+        const float u = random(), v = random();
+        const Vec2f square{Float(u), Float(v)};
+        if (known.type == "box") return BoxFilter{}.sample(UInt(x), UInt(y), square, Mask{true});
+        return TabulatedFilter(row.view).sample(UInt(x), UInt(y), square, Mask{true});
+      };
+      const double r = known.radius;
+      const statistics::Rectangle domain =
+          border ? statistics::Rectangle{{-r, -r}, {r, r}}
+                 : statistics::Rectangle{{-0.5, -0.5}, {std::min(r, 8.5), std::min(r, 4.5)}};
+      const auto absolute = [&](double t) { return std::abs(known.value(t)); };
+      const double all =
+          integral(absolute, domain.low[0], domain.high[0]) * integral(absolute, domain.low[1], domain.high[1]);
+      const statistics::Sampling sampling{
+          domain,
+          {"pixels to the right", "pixels down"},
+          [&](statistics::Random& random) {
+            const FilterSample s = draw(random);
+            return std::optional(statistics::Point{double{s.dx.v} - 0.5, double{s.dy.v} - 0.5});
+          },
+          [&](const statistics::Point& p) { return absolute(p[0]) * absolute(p[1]) / all; }};
+      const std::string what = known.type + " " + known.parameters + (border ? "" : ", in the corner");
+      EXPECT_TRUE(test.follows_density(sampling, what));
+      statistics::Random random(3);
+      statistics::Mean weight;
+      for (int i = 0; i < 200'000; ++i) weight.add(double{draw(random).weight.v});
+      EXPECT_TRUE(test.agree(weight.estimate(), 1, what + ", mean weight", kPartsError));
+    }
   }
 }
 
