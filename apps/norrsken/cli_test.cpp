@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -210,6 +212,38 @@ TEST_F(Cli, ReplaysOneSample) {
   EXPECT_EQ(run(one + std::vector<std::string>{"--pixel", "12"}).status, 64);
   EXPECT_EQ(run(one + std::vector<std::string>{"--trace"}).status, 64);
   EXPECT_EQ(run(one + std::vector<std::string>{"--pixel", "1,1", "-o", "b.exr"}).status, 64);
+}
+
+/// A projector of the brightest light that a scene may have, so close to a floor that some of it is beyond the greatest
+/// float.
+TEST_F(Cli, SamplesThatAreInfiniteAreToldWithTheCommandThatReplaysThem) {
+  write("bright.xml",
+        R"(<scene version="3.0.0"><integrator type="path"><integer name="max_depth" value="2"/></integrator>
+    <sensor type="perspective"><transform name="to_world"><lookat origin="0, 0, 0.4" target="0, 0, 0" up="0, 1, 0"/>
+    </transform><film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="16"/></film></sensor>
+    <shape type="rectangle"/><emitter type="projector"><float name="fov" value="120"/><float name="scale" value="1e18"/>
+    <rgb name="irradiance" value="1e18, 1, 0"/><transform name="to_world">
+    <lookat origin="0, 0, 0.1" target="0, 0, 0" up="0, 1, 0"/></transform></emitter></scene>)");
+  const ProcessResult rendered = run({"render", "bright.xml", "--spp", "4", "--seed", "7", "-o", "a.exr"});
+  EXPECT_EQ(rendered.status, 0);
+  EXPECT_THAT(rendered.err, HasSubstr("samples were left out, being infinite or not a number: pixel ("));
+  const std::string before = "what became of the first: norrsken ";
+  const std::size_t begin = rendered.err.find(before);
+  ASSERT_NE(begin, std::string::npos) << rendered.err;
+  std::istringstream command(
+      rendered.err.substr(begin + before.size(), rendered.err.find('\n', begin) - begin - before.size()));
+  const std::vector<std::string> arguments{std::istream_iterator<std::string>(command), {}};
+  EXPECT_THAT(arguments, testing::IsSupersetOf({"--pixel", "--sample", "--trace", "--seed", "7"}));
+  const ProcessResult replayed = run(arguments);
+  EXPECT_EQ(replayed.status, 0);
+  EXPECT_THAT(replayed.out, AllOf(HasSubstr("light sample for diffuse: along ("), HasSubstr(" adds (inf, "),
+                                  HasSubstr("\nradiance (inf, ")));
+
+  Image image;
+  ASSERT_TRUE(read_image((folder_ / "a.exr").string(), image));
+  for (const char* channel : {"R", "G", "B"}) {
+    for (const float value : image.find(channel)->values) ASSERT_TRUE(std::isfinite(value));
+  }
 }
 
 TEST_F(Cli, QuietPrintsNothing) {

@@ -148,16 +148,23 @@ typename Model::Parameters load(const Compiled& c) {
   return Model::load(ParameterReader{scene, UInt(front_of(c) & kMaterialOffsetMask), TexturePoint{}, Mask{true}});
 }
 
-TEST(Conductor, HasTheReflectanceOfItsMetal) {
-  const auto gold = load<Conductor>(compile("conductor", R"(<string name="material" value="Au"/>)"));
+/// ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2) of gold.
+template <class Model>
+void expect_gold_at_normal_incidence(const std::string& plugin, const std::string& parameters) {
+  const auto gold = load<Model>(compile(plugin, R"(<string name="material" value="Au"/>)" + parameters));
   const Vec3f front{Float(0.0f), Float(0.0f), Float(1.0f)};
-  const BsdfSample s = Conductor::sample(gold, front, Float(0.5f), {Float(0.5f), Float(0.5f)});
-  // ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2) at normal incidence.
+  const BsdfSample s = Model::sample(gold, front, Float(0.5f), {Float(0.5f), Float(0.5f)});
   const auto normal_incidence = [](double eta, double k) {
     return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
   };
   EXPECT_NEAR(double(s.weight.x.v), normal_incidence(0.143036, 3.983), 1e-3);
   EXPECT_NEAR(double(s.weight.z.v), normal_incidence(1.44205, 1.60336), 1e-3);
+}
+
+TEST(Conductor, HasTheReflectanceOfItsMetal) { expect_gold_at_normal_incidence<Conductor>("conductor", ""); }
+
+TEST(RoughConductor, HasTheReflectanceOfItsMetal) {
+  expect_gold_at_normal_incidence<RoughConductor>("roughconductor", R"(<float name="alpha" value="0.001"/>)");
 }
 
 /// Smoother and smoother facets give back all the light around the mirror's direction.

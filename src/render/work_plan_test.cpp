@@ -17,7 +17,8 @@ struct Case {
 
 const Case kCases[] = {{1, 1, {0, 1}, 1024},    {1, 1, {0, 1000}, 1024},      {17, 5, {0, 3}, 256},
                        {100, 3, {0, 33}, 1024}, {33, 70, {0, 16}, 4096},      {3, 200, {5, 155}, 1024},
-                       {64, 64, {0, 5}, 512},   {40, 40, {7, 27}, kMaxLanes}, {200, 150, {0, 17}, 1024}};
+                       {64, 64, {0, 5}, 512},   {40, 40, {7, 27}, kMaxLanes}, {200, 150, {0, 17}, 1024},
+                       {2, 2, {3, 9}, 1024}};
 
 /// Takes what is left of the samples, as the crew does, and counts what comes to each pixel. Stops after `most` waves.
 class Film {

@@ -77,10 +77,11 @@ NORRSKEN_INLINE void connect_to_camera(const SceneView& scene, const Hit& hit, c
   const Vec3f wo_world = -hit.ray.direction;
   const Float factor =
       camera.density * decompression<Model>(bsdf, wi) * flux_correction(surface, wo_world, wo_local, direction, wi);
-  const Vec3f contribution = hit.ray.throughput * Model::evaluate(bsdf, wo_local, wi) * factor;
-  active &= max_component(contribution) != Float(0.0f);
+  const Vec3f scattered = hit.ray.throughput * Model::evaluate(bsdf, wo_local, wi);
+  // Where nothing is scattered, a cosine may be 0 and the factor infinite.
+  active &= max_component(scattered) != Float(0.0f);
   if (any(active))
-    push(connections, Connection{{origin, direction, distance, contribution, hit.ray.slot}, camera.film}, active);
+    push(connections, Connection{{origin, direction, distance, scattered * factor, hit.ray.slot}, camera.film}, active);
 }
 
 template <class Model>

@@ -53,6 +53,17 @@ class Direct : public SceneFolder {
             static_cast<double>(statistics.closest_rays) / samples};
   }
 
+  double mean(const std::string& integrator, const std::string& sampler, const std::string& bsdf, int samples) const {
+    const Scene scene =
+        load_elements(integrator + camera(kSize, {}, R"(<rfilter type="box"/>)", sampler) + under_lamp(bsdf));
+    double sum = 0;
+    for (const auto& pixel :
+         picture_of(render_image(scene, {.samples_per_pixel = samples, .threads = kThreads})).pixels) {
+      sum += pixel[1] / (kSize * kSize);
+    }
+    return sum;
+  }
+
   /// Variance of a sample, where the camera sees nearly a point.
   double variance(const std::string& integrator) const {
     const Scene scene =
@@ -75,6 +86,27 @@ TEST_F(Direct, HasTheSameMeanForEverySplit) {
   }
   judge.compare("shading_samples", estimates(shading(3), 256, 900), wanted);
   EXPECT_TRUE(judge.verdict());
+}
+
+/// Dimensions that two choices share would show: the directions of a lobe would not be all of its directions.
+TEST_F(Direct, DirectionsAreIndependentOfTheChosenLobe) {
+  const std::string plastic =
+      R"(<bsdf type="roughplastic"><float name="alpha" value="0.4"/><float name="int_ior" value="2.5"/></bsdf>)";
+  for (const char* sampler : {"independent", "sobol"}) {
+    EXPECT_NEAR(mean(direct(0, 1), sampler, plastic, 4096) / mean(direct(1, 0), sampler, plastic, 256), 1, 0.01)
+        << sampler;
+  }
+}
+
+/// Likewise, those that roulette spares.
+TEST_F(Direct, DirectionsAreIndependentOfRoulette) {
+  const auto path = [](int rr_depth) {
+    return "<integrator type=\"path\">" + integer("max_depth", 2) + integer("rr_depth", rr_depth) + "</integrator>";
+  };
+  for (const char* sampler : {"independent", "sobol"}) {
+    EXPECT_NEAR(mean(path(1), sampler, diffuse("0.5"), 2048) / mean(path(100), sampler, diffuse("0.5"), 1024), 1, 0.006)
+        << sampler;
+  }
 }
 
 TEST_F(Direct, EverySampleIsARay) {

@@ -21,18 +21,18 @@ constexpr double kTolerance = 3e-3;
 class LookedThrough : public SceneFolder {
  protected:
   /// A plane of this material, seen from straight above and lit by a point or by what else `more` holds.
-  statistics::Picture render(const std::string& bsdf, const std::string& more, RenderOptions options = {}) const {
+  statistics::Picture render(const std::string& bsdf, const std::string& more, RenderOptions options = {},
+                             const std::string& integrator = "path") const {
     if (!options.samples_per_pixel) options.samples_per_pixel = 1024;
     options.threads = kThreads;
     const std::string plane = R"(<shape type="rectangle"><transform name="to_world"><scale value="10"/></transform>)";
-    return picture_of(render_image(load_elements("<integrator type=\"path\">" + integer("max_depth", 3) +
+    return picture_of(render_image(load_elements("<integrator type=\"" + integrator + "\">" + integer("max_depth", 3) +
                                                  "</integrator>" + camera(kSize) + plane + bsdf + "</shape>" + more),
                                    options));
   }
-  statistics::Picture under_point(const std::string& bsdf) const {
-    return render(bsdf, R"(<emitter type="point"><point name="position" value="1, 2, 3"/>)"
-                        R"(<float name="intensity" value="50"/></emitter>)");
-  }
+  statistics::Picture under_point(const std::string& bsdf) const { return render(bsdf, kPoint); }
+  static inline const std::string kPoint = R"(<emitter type="point"><point name="position" value="1, 2, 3"/>
+    <float name="intensity" value="50"/></emitter>)";
 };
 
 std::array<double, 3> mean(const statistics::Picture& picture) {
@@ -145,26 +145,43 @@ TEST_F(LookedThrough, AMaskShowsWhatIsBehindIt) {
               {2, 1, 0.5});
 }
 
+std::string normal_map(bool shadowing, const closed_form::Vec& n) {
+  return "<bsdf type=\"normalmap\"><texture name=\"normalmap\" type=\"rawconstant\"><vector name=\"value\" value=\"" +
+         std::to_string((n.x + 1) / 2) + ", " + std::to_string((n.y + 1) / 2) + ", " + std::to_string((n.z + 1) / 2) +
+         "\"/></texture><boolean name=\"use_shadowing_function\" value=\"" + (shadowing ? "true" : "false") + "\"/>" +
+         diffuse("0.6") + "</bsdf>";
+}
+
 TEST_F(LookedThrough, NormalMapsTurnTheNormal) {
   // (0.3, -0.2, 1) as a colour; the rectangle's u runs along x.
   const double length = std::sqrt(0.09 + 0.04 + 1);
   const closed_form::Vec n{0.3 / length, -0.2 / length, 1 / length};
   const auto map = [&](bool shadowing, double x, double y, double z) {
-    return under_point(
-        "<bsdf type=\"normalmap\"><texture name=\"normalmap\" type=\"rawconstant\"><vector name=\"value\" value=\"" +
-        std::to_string((x + 1) / 2) + ", " + std::to_string((y + 1) / 2) + ", " + std::to_string((z + 1) / 2) +
-        "\"/></texture><boolean name=\"use_shadowing_function\" value=\"" + (shadowing ? "true" : "false") + "\"/>" +
-        diffuse("0.6") + "</bsdf>");
+    return under_point(normal_map(shadowing, {x, y, z}));
   };
   const double plain = tilted_plane({0, 0, 1}, [](const closed_form::Vec&) { return 1.0; });
   expect_mean(map(true, 0, 0, 1), {plain, plain, plain});
   const double turned = tilted_plane(n, [](const closed_form::Vec&) { return 1.0; });
   ASSERT_GT(std::abs(turned - plain), 0.02 * plain);
   expect_mean(map(false, n.x, n.y, n.z), {turned, turned, turned});
-  const double alpha2 = 0.125 * (n.x * n.x + n.y * n.y) / (n.z * n.z);
-  const double shadowed = tilted_plane(
-      n, [&](const closed_form::Vec& w) { return 2 / (1 + std::sqrt(1 + alpha2 * (1 - w.z * w.z) / (w.z * w.z))); });
-  expect_mean(map(true, n.x, n.y, n.z), {shadowed, shadowed, shadowed});
+  // A steep one, or there would be too little shadow to see.
+  const double steep_length = std::sqrt(0.64 + 0.25 + 1);
+  const closed_form::Vec steep{0.8 / steep_length, -0.5 / steep_length, 1 / steep_length};
+  const double alpha2 = 0.125 * (steep.x * steep.x + steep.y * steep.y) / (steep.z * steep.z);
+  const double lit = tilted_plane(steep, [](const closed_form::Vec&) { return 1.0; });
+  const double shadowed = tilted_plane(steep, [&](const closed_form::Vec& w) {
+    return 2 / (1 + std::sqrt(1 + alpha2 * (1 - w.z * w.z) / (w.z * w.z)));
+  });
+  ASSERT_LT(shadowed, 0.99 * lit);
+  expect_mean(map(true, steep.x, steep.y, steep.z), {shadowed, shadowed, shadowed});
+}
+
+/// Paths from the light need the correction for shading normals (Veach 1997, equation 5.19) to show the same.
+TEST_F(LookedThrough, NormalMapsTurnTheNormalForPathsFromTheLightToo) {
+  const double length = std::sqrt(0.09 + 0.04 + 1);
+  const closed_form::Vec n{0.3 / length, -0.2 / length, 1 / length};
+  const double turned = tilted_plane(n, [](const closed_form::Vec&) { return 1.0; });
+  expect_mean(render(normal_map(false, n), kPoint, {.samples_per_pixel = 8192}, "ptracer"), {turned, turned, turned});
 }
 
 TEST_F(LookedThrough, BumpMapsFollowTheSlopeOfTheirTexture) {

@@ -31,8 +31,13 @@ Scene load_test_scene_with(const std::string& file, const LoadOptions& options) 
   return load(NORRSKEN_TEST_SCENES "/" + file, options);
 }
 
+std::string test_isa() {
+  const char* isa = std::getenv("NORRSKEN_TEST_ISA");
+  return isa != nullptr ? isa : "auto";
+}
+
 Image render_image(const Scene& scene, RenderOptions options, bool layers) {
-  if (const char* isa = std::getenv("NORRSKEN_TEST_ISA"); isa != nullptr && options.isa == "auto") options.isa = isa;
+  if (options.isa == "auto") options.isa = test_isa();
   Diagnostics diagnostics;
   const auto render = Render::create(scene, options, diagnostics);
   if (!render) fail(diagnostics);

@@ -22,8 +22,10 @@ Scene load(const std::string& path_or_name, const LoadOptions& options = {});
 Scene load_test_scene(const std::string& file, const SceneParameters& parameters = {});
 Scene load_test_scene_with(const std::string& file, const LoadOptions& options);
 
-/// Renders to the end; an instruction set that is left to choose is the environment's NORRSKEN_TEST_ISA if that is
-/// given. Throws std::runtime_error with the complaints if there are any, if a sample was dropped, or if another
+/// The environment's NORRSKEN_TEST_ISA, or "auto".
+std::string test_isa();
+
+/// Renders to the end; an instruction set that is left to choose is `test_isa`. Throws std::runtime_error with the complaints if there are any, if a sample was dropped, or if another
 /// instruction set or accelerator was used than was asked for.
 Image render_image(const Scene& scene, RenderOptions options, bool layers = false);
 
