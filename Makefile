@@ -55,6 +55,17 @@ asan-ubsan tsan:
 	cmake --build build/$@ -j $(JOBS)
 	ctest --preset $@ -j $(JOBS)
 
+.PHONY: fuzz fuzz-quick
+fuzz:  ## every fuzz target for ten minutes (FUZZ_SECONDS=600)
+fuzz-quick:  ## every fuzz target for one minute
+fuzz: FUZZ_SECONDS ?= 600
+fuzz-quick: FUZZ_SECONDS ?= 60
+fuzz fuzz-quick:
+	@scripts/install_dependencies.sh test
+	cmake --preset fuzz -DNORRSKEN_WARNINGS_AS_ERRORS=ON
+	cmake --build --preset fuzz -j $(JOBS)
+	scripts/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
+
 .PHONY: release-all
 release-all:
 	@scripts/install_dependencies.sh test
