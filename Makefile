@@ -55,19 +55,35 @@ asan-ubsan tsan:
 	cmake --build build/$@ -j $(JOBS)
 	ctest --preset $@ -j $(JOBS)
 
-# The fast part of the suite for `make test`: what reads files, and what has threads.
-SANITIZED_asan-ubsan := text_test parameters_test mitsuba_xml_test mitsuba_element_test xml_document_test obj_test ply_test \
+.PHONY: fuzz fuzz-quick
+fuzz:  ## every fuzz target for ten minutes (FUZZ_SECONDS=600)
+fuzz-quick:  ## every fuzz target for one minute
+fuzz: FUZZ_SECONDS ?= 600
+fuzz-quick: FUZZ_SECONDS ?= 60
+fuzz fuzz-quick:
+	@scripts/install_dependencies.sh test
+	cmake --preset fuzz -DNORRSKEN_WARNINGS_AS_ERRORS=ON
+	cmake --build --preset fuzz -j $(JOBS)
+	scripts/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
+
+# The fast part of the suite for `make test`: what reads files, and what has threads. The address and undefined-behaviour
+# sanitizers go by way of the fuzz build, which has them too: its libraries are built anyway.
+ASAN_TESTS := text_test parameters_test mitsuba_xml_test mitsuba_element_test xml_document_test obj_test ply_test \
   serialized_test vol_test curves_test section_file_test image_file_test film_test work_plan_test cli_arguments_test \
-  repeatability_test traps_test path_trace_test stopping_test
-SANITIZED_tsan := work_plan_test repeatability_test stopping_test cli_interrupt_test
+  repeatability_test traps_test path_trace_test hostile_files_test stopping_test
+TSAN_TESTS := work_plan_test repeatability_test stopping_test cli_interrupt_test
 
 .PHONY: sanitize-quick asan-ubsan-quick tsan-quick
-sanitize-quick: asan-ubsan-quick tsan-quick
-asan-ubsan-quick tsan-quick: %-quick:
+sanitize-quick: asan-ubsan-quick tsan-quick  ## the fast part of the suite under the sanitizers
+asan-ubsan-quick: PRESET := fuzz
+asan-ubsan-quick: TESTS := $(ASAN_TESTS)
+tsan-quick: PRESET := tsan
+tsan-quick: TESTS := $(TSAN_TESTS)
+asan-ubsan-quick tsan-quick:
 	@scripts/install_dependencies.sh test
-	cmake --preset $* -DNORRSKEN_WARNINGS_AS_ERRORS=ON -DNORRSKEN_ISAS=scalar
-	cmake --build build/$* -j $(JOBS) --target $(SANITIZED_$*)
-	ctest --preset $* -j $(JOBS) --exclude-regex '_NOT_BUILT'
+	cmake --preset $(PRESET) -DNORRSKEN_WARNINGS_AS_ERRORS=ON -DNORRSKEN_BUILD_TESTS=ON -DNORRSKEN_ISAS=scalar
+	cmake --build build/$(PRESET) -j $(JOBS) --target $(TESTS)
+	ctest --preset $(PRESET) -j $(JOBS) --exclude-regex '_NOT_BUILT'
 
 .PHONY: release-all
 release-all:

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what Norrsken needs from Debian 12, and does nothing if all of it is there.
 #   scripts/install_dependencies.sh [build|test]
-# `build` (the default): compiling, rendering and running the tests; `test`: what the checks of style and of a peer's scenes need as well.
+# `build` (the default): compiling, rendering and running the tests; `test`: what the checks of style and of a peer's scenes and the fuzzers need as well.
 set -euo pipefail
 
 packages=(
@@ -13,7 +13,7 @@ packages=(
 )
 case "${1:-build}" in
   build) ;;
-  test) packages+=(clang-format clang-tidy python3-numpy python3-openimageio) ;;
+  test) packages+=(clang clang-format clang-tidy libclang-rt-14-dev python3-numpy python3-openimageio) ;;
   *) echo "usage: $0 [build|test]" >&2; exit 64 ;;
 esac
 

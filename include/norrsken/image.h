@@ -50,9 +50,9 @@ struct [[nodiscard]] IoStatus {
 /// Errors: unknown extension, unwritable folder, full disk, size beyond the format, no R, G, B for PNG or JPEG.
 IoStatus write_image(const std::string& path, const Image& image, const ToneMapping& tone = {});
 
-/// Reads any format that OpenImageIO knows as float channels; 8-bit colour is decoded from sRGB to linear, alpha is
-/// left as the file has it (not multiplied). Of several images in a file the first counts.
-/// Errors: not a regular file, unknown or damaged format, more than 2^30 values. `image` changes on success only.
+/// Reads EXR, PNG, JPEG, HDR, PFM and its relatives, BMP, TGA and TIFF as float channels; 8-bit colour is decoded to
+/// linear, alpha is left as the file has it (not multiplied). Of several images in a file the first counts. Errors: not
+/// a regular file, above 4 GiB, unknown or damaged, more than 2^30 values. `image` changes on success only.
 IoStatus read_image(const std::string& path, Image& image);
 
 /// Whether `write_image` knows the extension: empty, or what is wrong and accepted.

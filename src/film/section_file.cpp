@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "base/checksum.h"
+#include "base/regular_file.h"
 #include "film/image_file.h"
 
 namespace norrsken {
@@ -56,23 +57,6 @@ std::string folder_of(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int get() const { return descriptor_; }
-  bool close() {
-    if (descriptor_ < 0) return true;
-    return ::close(std::exchange(descriptor_, -1)) == 0;
-  }
-
- private:
-  int descriptor_;
-};
 
 bool write_all(int file, std::span<const std::byte> bytes) {
   // Linux writes at most 2 GiB at once.
@@ -148,7 +132,7 @@ IoStatus check_target(const std::string& path) {
 }
 
 bool sync_folder(const std::string& path) {
-  const Descriptor folder(open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const FileDescriptor folder(open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (folder.get() < 0) return false;
   // Some file systems cannot, and say so.
   return fsync(folder.get()) == 0 || errno == EINVAL;
@@ -172,7 +156,7 @@ std::string older_generation_of(const std::string& path) { return path + ".1"; }
 IoStatus write_sections(const std::string& path, std::uint32_t version, std::span<const Section> sections,
                         OlderGeneration older) {
   if (IoStatus status = check_target(path); !status) return status;
-  Descriptor file(open_temporary(path));
+  FileDescriptor file(open_temporary(path));
   if (file.get() < 0) return open_failure(path, errno);
   const bool written = write_contents(file.get(), version, sections) && fsync(file.get()) == 0;
   if (written && take_name(path, older) && file.close() && sync_folder(path)) return {};
@@ -183,31 +167,26 @@ IoStatus write_sections(const std::string& path, std::uint32_t version, std::spa
 
 IoStatus check_sections_writable(const std::string& path) {
   if (IoStatus status = check_target(path); !status) return status;
-  const Descriptor file(open_temporary(path));
+  const FileDescriptor file(open_temporary(path));
   if (file.get() < 0) return open_failure(path, errno);
   unlink(temporary_of(path).c_str());
   return {};
 }
 
 SectionReader::SectionReader(const std::string& path, std::uint32_t version) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) {
-    fail(errno == ENOENT ? State::missing : State::unreadable, "cannot be read: " + error_text(errno));
+  RegularFile file = open_regular_file(path);
+  if (!file.descriptor) {
+    const bool other_kind = file.error.starts_with("is ");
+    fail(file.is_missing ? State::missing : State::unreadable, (other_kind ? "" : "cannot be read: ") + file.error);
     return;
   }
-  struct stat status {};
-  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
-    close(descriptor);
-    fail(State::unreadable, "is not a regular file");
-    return;
-  }
-  file_bytes_ = static_cast<std::uint64_t>(status.st_size);
-  file_.reset(fdopen(descriptor, "rb"));
+  file_bytes_ = file.bytes;
+  file_.reset(fdopen(file.descriptor.get(), "rb"));
   if (file_ == nullptr) {
-    close(descriptor);
     fail(State::unreadable, "cannot be read: " + error_text(errno));
     return;
   }
+  file.descriptor.release();
   read_heads(version);
 }
 

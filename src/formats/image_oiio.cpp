@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <initializer_list>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <span>
@@ -43,7 +45,7 @@ float decoded(float value, bool srgb, bool counted) {
 /// A complaint of OpenImageIO, which may also fail without a word.
 std::string said(const std::string& error) { return error.empty() ? "unknown or damaged image file" : error; }
 
-/// Hands the image to `use(first_row, values)` in blocks of rows, all channels one behind the other. Empty, or what is
+/// Hands the image to `use(values)` in blocks of rows, all channels one behind the other. Empty, or what is
 /// wrong with the file.
 template <class T, class Use>
 std::string for_each_block(OIIO::ImageInput& input, OIIO::TypeDesc type, const Use& use) {
@@ -58,17 +60,61 @@ std::string for_each_block(OIIO::ImageInput& input, OIIO::TypeDesc type, const U
                                               : input.read_scanlines(0, 0, begin, begin + rows, 0, 0, spec.nchannels,
                                                                      type, block.data());
     if (!success) return said(input.geterror());
-    use(row, std::span<const T>(block.data(), row_values * static_cast<std::size_t>(rows)));
+    use(std::span<const T>(block.data(), row_values * static_cast<std::size_t>(rows)));
   }
   return {};
 }
 
-std::string read(const std::string& path, Image& image) {
+/// Formats that are read, by OpenImageIO's names, and their extensions. It knows more, but each is one more parser for a
+/// damaged file to break, and those that need a file of their own on disk could not be read from memory.
+struct Format {
+  const char* name;
+  std::initializer_list<const char*> extensions;
+};
+const Format kFormats[] = {{"openexr", {"exr"}},      {"png", {"png"}},
+                           {"jpeg", {"jpg", "jpeg"}}, {"hdr", {"hdr", "rgbe"}},
+                           {"bmp", {"bmp"}},          {"pnm", {"pfm", "ppm", "pgm", "pbm", "pnm"}},
+                           {"targa", {"tga"}},        {"tiff", {"tif", "tiff"}}};
+
+/// A file in memory, opened by OpenImageIO.
+struct OpenImage {
+  explicit OpenImage(const std::string& contents) : bytes(const_cast<char*>(contents.data()), contents.size()) {}
+
+  OIIO::Filesystem::IOMemReader bytes;
+  Input input;  ///< empty if it could not be opened
+};
+
+/// Opens the contents as the format that the name's extension says, or else as whichever it is.
+void open(const std::string& path, OpenImage& image) {
   OIIO::ImageSpec request;
   request["oiio:UnassociatedAlpha"] = 1;  // multiplying encoded colours by alpha is wrong
-  const Input input = OIIO::ImageInput::open(path, &request);
-  if (!input) return said(OIIO::geterror());
-  const OIIO::ImageSpec& spec = input->spec();
+  const auto opened_as = [&](const Format& format) {
+    Input input = OIIO::ImageInput::create(format.name);
+    OIIO::ImageSpec spec;
+    image.bytes.seek(0);
+    if (!input || !input->set_ioproxy(&image.bytes) || !input->open(path, spec, request)) return false;
+    image.input = std::move(input);
+    return true;
+  };
+  const std::size_t dot = path.rfind('.');
+  const std::string extension = dot == std::string::npos ? "" : OIIO::Strutil::lower(path.substr(dot + 1));
+  const auto is_named = [&](const Format& format) {
+    return std::ranges::any_of(format.extensions, [&](const char* name) { return extension == name; });
+  };
+  const auto* named = std::ranges::find_if(kFormats, is_named);
+  if (named != std::end(kFormats) && opened_as(*named)) return;
+  for (const Format& format : kFormats) {
+    if (&format != named && opened_as(format)) break;
+  }
+  OIIO::geterror();  // which of them said what is of no use
+}
+
+std::string read(const std::string& path, const std::string& contents, Image& image) {
+  OpenImage file(contents);
+  open(path, file);
+  if (!file.input) return said({});
+  OIIO::ImageInput& input = *file.input;
+  const OIIO::ImageSpec& spec = input.spec();
   if (spec.deep || spec.depth > 1) return "deep and volume images are not read";
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
   if (spec.image_pixels() > kMostImageValues / static_cast<std::size_t>(spec.nchannels)) {
@@ -84,19 +130,18 @@ std::string read(const std::string& path, Image& image) {
   for (int c = 0; c < spec.nchannels; ++c) {
     srgb[c] = srgb_file && c != spec.alpha_channel && c != spec.z_channel;
     counted[c] = spec.channelformat(c) == OIIO::TypeDesc::UINT32;
-    image.channels.push_back({spec.channel_name(c), std::vector<float>(spec.image_pixels())});
+    image.channels.push_back({spec.channel_name(c), {}});
   }
   for (const auto& attribute : spec.extra_attribs) {
     if (attribute.type() == OIIO::TypeString) image.metadata[attribute.name().string()] = attribute.get_string();
   }
 
-  const std::size_t channels = static_cast<std::size_t>(spec.nchannels), width = static_cast<std::size_t>(spec.width);
-  return for_each_block<float>(*input, OIIO::TypeFloat, [&](int row, std::span<const float> block) {
+  // Memory grows with the rows that are there, whatever the header promises.
+  const auto channels = static_cast<std::size_t>(spec.nchannels);
+  return for_each_block<float>(input, OIIO::TypeFloat, [&](std::span<const float> block) {
     for (std::size_t c = 0; c < channels; ++c) {
-      float* out = image.channels[c].values.data() + static_cast<std::size_t>(row) * width;
-      for (std::size_t i = 0; i < block.size() / channels; ++i) {
-        out[i] = decoded(block[i * channels + c], srgb[c], counted[c]);
-      }
+      std::vector<float>& values = image.channels[c].values;
+      for (std::size_t i = c; i < block.size(); i += channels) values.push_back(decoded(block[i], srgb[c], counted[c]));
     }
   });
 }
@@ -117,7 +162,7 @@ std::string read_channels(OIIO::ImageInput& input, const std::vector<int>& wante
   // Reserved memory costs nothing before it is written, so a header cannot ask for more than the file fills.
   values.reserve(spec.image_pixels() * wanted.size());
   return for_each_block<T>(input, std::is_same_v<T, float> ? OIIO::TypeFloat : OIIO::TypeUInt8,
-                           [&](int, std::span<const T> block) {
+                           [&](std::span<const T> block) {
                              for (std::size_t i = 0; i < block.size(); i += channels) {
                                for (const int c : wanted) {
                                  const T value = block[i + static_cast<std::size_t>(c)];
@@ -131,30 +176,13 @@ std::string read_channels(OIIO::ImageInput& input, const std::vector<int>& wante
                            });
 }
 
-/// Opens `contents` as the format that the name's extension says, or else as whichever it is.
-Input open_contents(const std::string& path, OIIO::Filesystem::IOProxy& contents, const OIIO::ImageSpec& request) {
-  std::vector<std::string> formats = {"png", "jpeg", "openexr", "hdr", "bmp", "targa", "tiff"};
-  if (const std::size_t dot = path.rfind('.'); dot != std::string::npos)
-    formats.insert(formats.begin(), path.substr(dot + 1));
-  for (const std::string& format : formats) {
-    Input input = OIIO::ImageInput::create(format);
-    OIIO::ImageSpec spec;
-    contents.seek(0);
-    if (input && input->supports("ioproxy") && input->set_ioproxy(&contents) && input->open(path, spec, request))
-      return input;
-  }
-  OIIO::geterror();  // which of them said what is of no use
-  return nullptr;
-}
-
 std::string read_image_texels(const std::string& path, const std::string& contents, std::size_t max_bytes,
                               TexelImage& image) {
-  OIIO::ImageSpec request;
-  request["oiio:UnassociatedAlpha"] = 1;
-  OIIO::Filesystem::IOMemReader memory(const_cast<char*>(contents.data()), contents.size());
-  const Input input = open_contents(path, memory, request);
-  if (!input) return said({});
-  const OIIO::ImageSpec& spec = input->spec();
+  OpenImage file(contents);
+  open(path, file);
+  if (!file.input) return said({});
+  OIIO::ImageInput& input = *file.input;
+  const OIIO::ImageSpec& spec = input.spec();
   if (spec.deep || spec.depth > 1) return "deep and volume images are not read";
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
   const std::vector<int> wanted = color_channels(spec);
@@ -168,7 +196,7 @@ std::string read_image_texels(const std::string& path, const std::string& conten
   image.channels = static_cast<int>(wanted.size());
   image.is_encoded = !spec.format.is_floating_point() && spec.format.size() <= 2 &&
                      !OIIO::Strutil::iequals(spec.get_string_attribute("oiio:ColorSpace"), "linear");
-  return small ? read_channels(*input, wanted, image.bytes) : read_channels(*input, wanted, image.values);
+  return small ? read_channels(input, wanted, image.bytes) : read_channels(input, wanted, image.values);
 }
 
 /// Runs `read`, which returns what is wrong, and lets no exception out.
@@ -187,8 +215,9 @@ bool guarded(std::string& error, const Read& read) noexcept {
 
 }  // namespace
 
-extern "C" bool norrsken_oiio_read(const std::string& path, norrsken::Image& image, std::string& error) noexcept {
-  return guarded(error, [&] { return read(path, image); });
+extern "C" bool norrsken_oiio_read(const std::string& path, const std::string& contents, norrsken::Image& image,
+                                   std::string& error) noexcept {
+  return guarded(error, [&] { return read(path, contents, image); });
 }
 
 extern "C" bool norrsken_oiio_read_texels(const std::string& path, const std::string& contents, std::size_t max_bytes,

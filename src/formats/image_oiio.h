@@ -6,8 +6,10 @@
 #include "formats/texel_image.h"
 #include "norrsken/image.h"
 
-/// Reads the first image of the file into `image`, or says in `error` what is wrong. `path` is a regular file.
-extern "C" bool norrsken_oiio_read(const std::string& path, norrsken::Image& image, std::string& error) noexcept;
+/// Reads the first image of a file's `contents` into `image`, or says in `error` what is wrong; `path` is for its
+/// extension.
+extern "C" bool norrsken_oiio_read(const std::string& path, const std::string& contents, norrsken::Image& image,
+                                   std::string& error) noexcept;
 
 /// What `norrsken::read_texels` does.
 extern "C" bool norrsken_oiio_read_texels(const std::string& path, const std::string& contents, std::size_t max_bytes,

@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/regular_file.h"
 #include "formats/image_oiio.h"
 #include "norrsken/image.h"
 
@@ -53,17 +54,13 @@ IoStatus failure(const std::string& path, const std::string& reason) {
 }  // namespace
 
 IoStatus read_image(const std::string& path, Image& image) {
-  if (path.find('\0') != std::string::npos) return failure(path, "not a file name");
-  std::error_code code;
-  const fs::file_status status = fs::status(path, code);
-  if (!fs::exists(status)) return failure(path, code ? code.message() : "no such file");
-  if (fs::is_directory(status)) return failure(path, "it is a folder");
-  if (!fs::is_regular_file(status)) return failure(path, "it is not a regular file");
+  std::string error;
+  const auto contents = read_regular_file(path, error);
+  if (!contents) return failure(path, (error.starts_with("is ") ? "it " : "") + error);
 
   Image read;
-  std::string error;
   auto* reader = find_entry<decltype(norrsken_oiio_read)>("norrsken_oiio_read", error);
-  if (reader == nullptr || !reader(path, read, error)) return failure(path, error);
+  if (reader == nullptr || !reader(path, *contents, read, error)) return failure(path, error);
   image = std::move(read);
   return {};
 }

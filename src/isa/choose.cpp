@@ -3,6 +3,10 @@
 
 #include "isa/entry.h"
 
+#if defined(__x86_64__) || defined(__i386__)
+#include <cpuid.h>
+#endif
+
 namespace norrsken {
 
 #define NORRSKEN_BUILT_ISA(space)  \
@@ -14,12 +18,20 @@ namespace norrsken {
 
 namespace {
 
+#if defined(__x86_64__) || defined(__i386__)
+/// Half precision, which clang's __builtin_cpu_supports does not know.
+bool has_f16c() {
+  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
+  return __get_cpuid(1, &eax, &ebx, &ecx, &edx) != 0 && (ecx & bit_F16C) != 0;
+}
+#endif
+
 bool processor_can_run(const char* name) {
 #if defined(__x86_64__) || defined(__i386__)
   __builtin_cpu_init();
   const bool sse42 = __builtin_cpu_supports("sse4.2");
   const bool avx2 = sse42 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c");
+                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && has_f16c();
   const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                       __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
                       __builtin_cpu_supports("avx512vl");

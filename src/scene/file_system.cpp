@@ -1,39 +1,16 @@
 #include "scene/file_system.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <filesystem>
-#include <new>
 #include <system_error>
 
+#include "base/regular_file.h"
 #include "base/text.h"
 
 namespace norrsken {
 namespace {
 
 constexpr std::string_view kBuiltin = "builtin:";
-constexpr std::size_t kMaxFileBytes = std::size_t{4} << 30;
-constexpr const char* kTooLarge = "is larger than 4 GiB";
-
-// Closes the descriptor on every way out.
-struct Descriptor {
-  explicit Descriptor(int number) : value(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (value >= 0) ::close(value);
-  }
-  int value;
-};
-
-std::string system_message(int code) {
-  return code == ENOENT ? "no such file" : std::error_code(code, std::generic_category()).message();
-}
 
 std::string builtin_key(const std::string& path) {
   return std::filesystem::path(path.substr(kBuiltin.size())).lexically_normal().generic_string();
@@ -50,61 +27,11 @@ std::optional<std::string> read_builtin(const std::string& path, std::string& er
   return std::nullopt;
 }
 
-std::optional<std::string> read_all(int descriptor, std::size_t expected, std::string& error) {
-  // One byte more than expected, so that the end is seen without growing. Files of /proc claim to be empty.
-  std::string contents(expected + 1, '\0');
-  std::size_t size = 0;
-  for (;;) {
-    if (size == contents.size()) {
-      if (size > kMaxFileBytes) {
-        error = kTooLarge;
-        return std::nullopt;
-      }
-      contents.resize(size * 2 + 4096);
-    }
-    const ssize_t count = ::read(descriptor, contents.data() + size, contents.size() - size);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) {
-      error = system_message(errno);
-      return std::nullopt;
-    }
-    if (count == 0) break;
-    size += static_cast<std::size_t>(count);
-  }
-  contents.resize(size);
-  return contents;
-}
-
 }  // namespace
 
 std::optional<std::string> FileSystem::read(const std::string& path, std::string& error) const {
   if (is_builtin(path)) return read_builtin(path, error);
-  // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever; the check below then refuses it.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
-  struct stat status {};
-  if (file.value < 0 || ::fstat(file.value, &status) != 0) {
-    // Sockets and some devices cannot be opened at all.
-    error = errno == ENXIO ? "is not a regular file" : system_message(errno);
-    return std::nullopt;
-  }
-  if (S_ISDIR(status.st_mode)) {
-    error = "is a folder";
-    return std::nullopt;
-  }
-  if (!S_ISREG(status.st_mode)) {
-    error = "is not a regular file";
-    return std::nullopt;
-  }
-  if (static_cast<std::uintmax_t>(status.st_size) > kMaxFileBytes) {
-    error = kTooLarge;
-    return std::nullopt;
-  }
-  try {
-    return read_all(file.value, static_cast<std::size_t>(status.st_size), error);
-  } catch (const std::bad_alloc&) {
-    error = "does not fit into memory";
-    return std::nullopt;
-  }
+  return read_regular_file(path, error);
 }
 
 bool FileSystem::exists(const std::string& path) const {

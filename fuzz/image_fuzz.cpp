@@ -1,0 +1,38 @@
+// Image files of every format that is read, as `norrsken compare` reads them and as textures are read. The reader is
+// linked, not loaded, so that its coverage is seen; the libraries behind it are not instrumented.
+#include <OpenImageIO/imageio.h>
+
+#include "formats/image_oiio.h"
+#include "fuzz/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace norrsken;
+  constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+  const std::string contents(fuzz::text_of(data, size));
+  std::string error;
+  Image image;
+  if (norrsken_oiio_read("input", contents, image, error)) {
+    const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    fuzz::require(pixels > 0 && !image.channels.empty(), "an image has pixels");
+    for (const Channel& channel : image.channels) fuzz::require(channel.values.size() == pixels, "channels are whole");
+  } else {
+    fuzz::require(!error.empty(), "failure is explained");
+  }
+  TexelImage texels;
+  error.clear();
+  if (norrsken_oiio_read_texels("input", contents, kMostBytes, texels, error)) {
+    const auto values = static_cast<std::size_t>(texels.width) * static_cast<std::size_t>(texels.height) *
+                        static_cast<std::size_t>(texels.channels);
+    fuzz::require(values > 0 && texels.bytes.size() + texels.values.size() == values, "texels are whole");
+  } else {
+    fuzz::require(!error.empty(), "failure is explained");
+  }
+  return 0;
+}
+
+/// Small images gain nothing from threads.
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);
+  return 0;
+}

@@ -1,0 +1,7 @@
+// Wavefront OBJ files.
+#include "fuzz/mesh_check.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace norrsken;
+  return fuzz::fuzz_mesh([&](Diagnostics& d) { return read_obj(fuzz::text_of(data, size), "input.obj", d); });
+}

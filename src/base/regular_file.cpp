@@ -1,0 +1,89 @@
+#include "base/regular_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <new>
+#include <system_error>
+
+namespace norrsken {
+namespace {
+
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
+constexpr const char* kTooLarge = "is larger than 4 GiB";
+constexpr const char* kNotRegular = "is not a regular file";
+
+std::string system_message(int code) {
+  return code == ENOENT ? "no such file" : std::error_code(code, std::generic_category()).message();
+}
+
+std::optional<std::string> read_all(const RegularFile& file, std::string& error) {
+  // One byte more than expected, so that the end is seen without growing. Files of /proc claim to be empty.
+  std::string contents(file.bytes + 1, '\0');
+  std::size_t size = 0;
+  for (;;) {
+    if (size == contents.size()) {
+      if (size > kMaxFileBytes) {
+        error = kTooLarge;
+        return std::nullopt;
+      }
+      contents.resize(size * 2 + 4096);
+    }
+    const ssize_t count = ::read(file.descriptor.get(), contents.data() + size, contents.size() - size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      error = system_message(errno);
+      return std::nullopt;
+    }
+    if (count == 0) break;
+    size += static_cast<std::size_t>(count);
+  }
+  contents.resize(size);
+  return contents;
+}
+
+}  // namespace
+
+bool FileDescriptor::close() { return number_ < 0 || ::close(release()) == 0; }
+
+RegularFile open_regular_file(const std::string& path) {
+  RegularFile file;
+  if (path.empty() || path.find('\0') != std::string::npos) {
+    file.error = "not a file name";
+    return file;
+  }
+  // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever; the check below then refuses it.
+  FileDescriptor opened(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+  struct stat status {};
+  if (!opened || ::fstat(opened.get(), &status) != 0) {
+    // Sockets and some devices cannot be opened at all.
+    file.error = errno == ENXIO ? kNotRegular : system_message(errno);
+    file.is_missing = errno == ENOENT;
+  } else if (!S_ISREG(status.st_mode)) {
+    file.error = S_ISDIR(status.st_mode) ? "is a folder" : kNotRegular;
+  } else {
+    file.bytes = static_cast<std::uint64_t>(status.st_size);
+    file.descriptor = std::move(opened);
+  }
+  return file;
+}
+
+std::optional<std::string> read_regular_file(const std::string& path, std::string& error) {
+  const RegularFile file = open_regular_file(path);
+  error = file.error;
+  if (!file.descriptor) return std::nullopt;
+  if (file.bytes > kMaxFileBytes) {
+    error = kTooLarge;
+    return std::nullopt;
+  }
+  try {
+    return read_all(file, error);
+  } catch (const std::bad_alloc&) {
+    error = "does not fit into memory";
+    return std::nullopt;
+  }
+}
+
+}  // namespace norrsken
