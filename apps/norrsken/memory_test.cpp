@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -17,9 +18,7 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::MatchesRegex;
-using testing::Not;
 
 constexpr std::uint64_t kMebibyte = 1 << 20;
 
@@ -30,9 +29,9 @@ void append(std::string& bytes, T value) {
   bytes.append(raw, sizeof raw);
 }
 
-/// A wavy sheet of about two million triangles.
+/// A wavy sheet of about a million triangles.
 std::string large_mesh() {
-  constexpr std::uint32_t kSide = 1000;
+  constexpr std::uint32_t kSide = 700;
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(kSide * kSide) +
                       "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
                       std::to_string(2 * (kSide - 1) * (kSide - 1)) +
@@ -58,7 +57,7 @@ std::string large_mesh() {
 }
 
 std::string large_texture() {
-  constexpr std::uint16_t kSide = 5000;
+  constexpr std::uint16_t kSide = 4000;
   std::string bytes(12, '\0');
   bytes[2] = 2;
   append(bytes, kSide);
@@ -99,11 +98,6 @@ class MaxMemory : public testing::Test {
     write_scene(
         R"(<texture type="bitmap"><string name="filename" value="image.tga"/></texture><shape type="sphere"/>)");
   }
-  nlohmann::json memory_of_scene() const {
-    const ProcessResult info = run({"info", "scene.xml", "--json"});
-    EXPECT_EQ(info.status, 0) << info.err;
-    return nlohmann::json::parse(info.out).at("memory");
-  }
   ProcessResult render(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments = {"render",    "scene.xml", "--spp", "1",    "--quiet",
                                           "--threads", "2",         "-o",    "a.exr"};
@@ -130,8 +124,9 @@ TEST_F(MaxMemory, CountsWhatAMeshTakes) {
   const ProcessResult info = run({"info", "scene.xml", "--json"});
   ASSERT_EQ(info.status, 0) << info.err;
   const auto memory = nlohmann::json::parse(info.out).at("memory");
-  expect_near(memory.at("loading_peak_bytes"), info.peak_memory, kProgram);
-  EXPECT_GT(memory.at("loading_peak_bytes"), 64 * kMebibyte) << "large enough to tell";
+  const auto loading = memory.at("loading_peak_bytes").get<std::uint64_t>();
+  expect_near(loading, info.peak_memory, kProgram);
+  EXPECT_GT(loading, 48 * kMebibyte) << "large enough to tell";
 
   // With Embree's structure, of which there is but an estimate before.
   const ProcessResult rendered = render();
@@ -145,8 +140,8 @@ TEST_F(MaxMemory, CountsWhatATextureTakes) {
   write_texture_scene();
   const ProcessResult info = run({"info", "scene.xml", "--json"});
   ASSERT_EQ(info.status, 0) << info.err;
-  expect_near(nlohmann::json::parse(info.out).at("memory").at("loading_peak_bytes"), info.peak_memory,
-              kProgramWithImages);
+  const auto memory = nlohmann::json::parse(info.out).at("memory");
+  expect_near(memory.at("loading_peak_bytes").get<std::uint64_t>(), info.peak_memory, kProgramWithImages);
 }
 
 TEST_F(MaxMemory, CountsWhatAFilmTakes) {
@@ -167,7 +162,7 @@ TEST_F(MaxMemory, IsKept) {
   write_mesh_scene();
   const std::uint64_t needed = render().peak_memory;
   int accepted = 0, refused = 0;
-  for (const double share : {0.1, 0.4, 0.7, 0.85, 1.0, 1.25, 1.5}) {
+  for (const double share : {0.1, 0.4, 0.7, 1.0, 1.3, 1.6}) {
     const auto limit = static_cast<std::uint64_t>(share * static_cast<double>(needed));
     const ProcessResult result = render({"--max-memory", std::to_string(limit)});
     if (result.status == 0) {
@@ -178,7 +173,7 @@ TEST_F(MaxMemory, IsKept) {
       EXPECT_EQ(result.status, 65) << result.err;
       EXPECT_THAT(result.err, HasSubstr("does not fit into memory: it needs at least"));
       EXPECT_LT(result.peak_memory, limit + 16 * kMebibyte);
-      EXPECT_LT(share, 1.25) << result.err;
+      EXPECT_LT(share, 1.3) << result.err;
     }
   }
   EXPECT_GE(accepted, 2);
@@ -188,16 +183,16 @@ TEST_F(MaxMemory, IsKept) {
 
 TEST_F(MaxMemory, TellsPlaceAndRemedy) {
   write_mesh_scene();
-  const ProcessResult mesh = render({"--max-memory", "64M"});
+  const ProcessResult mesh = render({"--max-memory", "40M"});
   EXPECT_EQ(mesh.status, 65);
-  EXPECT_THAT(mesh.err, MatchesRegex("scene.xml:4:48: error: shape 'ply' does not fit into memory: it needs at least "
-                                     "[0-9.]+ MiB, and [0-9.]+ MiB of 64.0 MiB are left\n"
+  EXPECT_THAT(mesh.err, MatchesRegex("scene.xml:4:50: error: shape 'ply' does not fit into memory: it needs at least "
+                                     "[0-9.]+ MiB, and [0-9.]+ MiB of 40.0 MiB are left\n"
                                      "[^\n]*<shape type=[^\n]*\n[^\n]*\\^[^\n]*\n"
                                      "accepted: up to [0-9.]+ MiB, or a larger --max-memory\n"));
   write_texture_scene();
-  const ProcessResult image = render({"--max-memory", "200M"});
+  const ProcessResult image = render({"--max-memory", "100M"});
   EXPECT_EQ(image.status, 65);
-  EXPECT_THAT(image.err, HasSubstr("scene.xml:4:53: error: image 'image.tga' does not fit into memory: it needs at"));
+  EXPECT_THAT(image.err, HasSubstr("scene.xml:4:55: error: image 'image.tga' does not fit into memory: it needs at"));
   const ProcessResult film = render({"--max-memory", "300M", "--size", "4096x4096"});
   EXPECT_EQ(film.status, 64);
   EXPECT_THAT(film.err, AllOf(HasSubstr("a film of 4096 x 4096 pixels with its image needs 3.92 GiB, and "),
@@ -221,12 +216,12 @@ TEST_F(MaxMemory, HoldsForEveryCommandThatReadsMuch) {
   };
   refused({"info", "scene.xml", "--size", "512x512"}, 64);
   refused({"bench", "scene.xml", "--size", "512x512"}, 64);
-  refused({"figures", "--quick", "-o", "out", "--quiet"}, 64);
   refused({"merge", "a.part", "-o", "b.exr"}, 65);
   refused({"compare", "a.exr", "a.exr"}, 65);
+  EXPECT_EQ(run({"figures", "--quick", "-o", "out", "--quiet", "--max-memory", "12M"}).status, 64);
   EXPECT_EQ(run({"merge", "a.part", "-o", "b.exr", "--quiet", "--max-memory", "400M"}).status, 0);
   EXPECT_EQ(run({"compare", "a.exr", "b.exr", "--max-memory", "400M"}).status, 0);
-  for (const char* size : {"0", "4X", "-1G", "", "G", "1e99", "nan", "inf"}) {
+  for (const char* size : {"0", "4X", "-1G", "G", "1e99", "nan", "inf"}) {
     const ProcessResult result = run({"info", "scene.xml", "--max-memory", size});
     EXPECT_EQ(result.status, 64) << size;
   }
@@ -237,7 +232,7 @@ TEST_F(MaxMemory, LimitsOfTheSystemAreErrorsToo) {
   write_mesh_scene();
   const std::uint64_t needed = render().peak_memory;
   int refused = 0;
-  for (const double share : {0.3, 0.5, 0.8, 1.2}) {
+  for (const double share : {0.3, 0.6, 0.9}) {
     for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--max-memory", "none"}}) {
       ProcessOptions options;
       options.address_space = static_cast<std::uint64_t>(share * static_cast<double>(needed)) + 60 * kMebibyte;

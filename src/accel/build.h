@@ -45,7 +45,8 @@ class EmbreeMemory {
  private:
   std::shared_ptr<MemoryBudget> budget_ = MemoryScope::current();
   std::atomic<std::int64_t> taken_{0};
-  std::atomic<std::uint64_t> refused_{0};  ///< bytes of the first that was
+  std::atomic<std::uint64_t> refused_{0};            ///< bytes of the first that was
+  std::atomic<std::uint64_t> used_when_refused_{0};  ///< of the budget: a build that fails gives back before it says so
 };
 
 /// The world as an Embree scene, with a scene of its own for every group that instances place in it.

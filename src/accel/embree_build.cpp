@@ -91,7 +91,10 @@ RTCBuffer copy_positions(RTCDevice device, std::span<const float> positions) {
 
 EmbreeScene::EmbreeScene() {
   RTCDevice device = rtcNewDevice(nullptr);
-  if (device == nullptr) throw std::runtime_error("Embree cannot create a device");
+  if (device == nullptr) {
+    if (rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw std::runtime_error("Embree cannot create a device: the system may be out of memory or of threads");
+  }
   device_ = device;
   rtcSetDeviceMemoryMonitorFunction(
       device,
@@ -119,12 +122,16 @@ bool EmbreeMemory::report(std::int64_t bytes, bool is_done) noexcept {
     return true;
   }
   std::uint64_t none = 0;
-  refused_.compare_exchange_strong(none, wanted);
+  if (refused_.compare_exchange_strong(none, wanted)) used_when_refused_ = budget_->used();
   return is_done;  // too late to refuse
 }
 
 void EmbreeMemory::throw_if_exceeded() const {
-  if (const std::uint64_t wanted = refused_.load(); wanted > 0) throw MemoryExceeded(wanted, *budget_);
+  const std::uint64_t wanted = refused_.load();
+  if (wanted == 0) return;
+  MemoryExceeded exceeded(wanted, *budget_);
+  exceeded.used = used_when_refused_.load();
+  throw exceeded;
 }
 
 EmbreeScene::EmbreeScene(const SceneTables& scene, std::span<const SphereRecord> spheres) : EmbreeScene() {

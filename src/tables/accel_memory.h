@@ -7,10 +7,10 @@
 
 namespace norrsken {
 
-/// An estimate, within a factor of two for scenes of many primitives: its copy of the vertices, and per primitive its
-/// share of the structure, as measured on meshes from ten thousand triangles up.
+/// An estimate of the most that it takes, which is while it is built: its copy of the vertices, and for each primitive
+/// its share, as measured on a mesh of a million triangles. What is left when it is built is two thirds of that.
 inline std::uint64_t embree_bytes(const SceneTables& scene) {
-  constexpr std::uint64_t kPerPrimitive = 128, kPerInstance = 768;
+  constexpr std::uint64_t kPerPrimitive = 100, kPerInstance = 768;
   return scene.positions.size() * sizeof(float) + kPerPrimitive * scene.surfaces.size() +
          kPerInstance * scene.instances.size();
 }
