@@ -55,8 +55,7 @@ class MemoryReservation {
  public:
   MemoryReservation() = default;
   /// MemoryExceeded if there are not so many. Without a budget nothing is counted.
-  explicit MemoryReservation(std::uint64_t bytes,
-                             std::shared_ptr<MemoryBudget> budget = MemoryScope::current());
+  explicit MemoryReservation(std::uint64_t bytes, std::shared_ptr<MemoryBudget> budget = MemoryScope::current());
   ~MemoryReservation() { release(); }
   MemoryReservation(MemoryReservation&& other) noexcept
       : budget_(std::move(other.budget_)), bytes_(std::exchange(other.bytes_, 0)) {}
