@@ -7,20 +7,22 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace norrsken;
-  constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+  constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
   const std::string contents(fuzz::text_of(data, size));
   std::string error;
   Image image;
-  if (norrsken_oiio_read("input", contents, image, error)) {
+  if (norrsken_oiio_read("input", contents, kMostBytes, image, error)) {
     const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     fuzz::require(pixels > 0 && !image.channels.empty(), "an image has pixels");
     for (const Channel& channel : image.channels) fuzz::require(channel.values.size() == pixels, "channels are whole");
   } else {
     fuzz::require(!error.empty(), "failure is explained");
   }
+  const MemoryScope scope(std::make_shared<MemoryBudget>(kMostBytes));
   TexelImage texels;
+  std::exception_ptr out_of_memory;
   error.clear();
-  if (norrsken_oiio_read_texels("input", contents, kMostBytes, texels, error)) {
+  if (norrsken_oiio_read_texels("input", contents, texels, error, out_of_memory)) {
     const auto values = static_cast<std::size_t>(texels.width) * static_cast<std::size_t>(texels.height) *
                         static_cast<std::size_t>(texels.channels);
     fuzz::require(values > 0 && texels.bytes.size() + texels.values.size() == values, "texels are whole");

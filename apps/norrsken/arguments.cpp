@@ -122,6 +122,22 @@ std::optional<double> parse_share(const std::string& text) {
   return share > 0 && share < 1 ? std::optional(share) : std::nullopt;
 }
 
+std::optional<std::uint64_t> parse_memory_size(const std::string& text) {
+  constexpr double kLargest = 0x1p62;
+  if (text == "none") return MemoryBudget::kUnlimited;
+  std::string_view digits = text;
+  double unit = 1;
+  for (const auto& [letter, bytes] : {std::pair{'K', 0x1p10}, {'M', 0x1p20}, {'G', 0x1p30}, {'T', 0x1p40}}) {
+    if (digits.empty() || digits.back() != letter) continue;
+    unit = bytes;
+    digits.remove_suffix(1);
+    break;
+  }
+  const auto count = parse_number<double>(digits);
+  if (!count || !(*count * unit >= 1 && *count * unit <= kLargest)) return std::nullopt;
+  return static_cast<std::uint64_t>(*count * unit);
+}
+
 std::optional<SampleRange> parse_samples(const std::string& text) {
   const auto colon = text.find(':');
   if (colon == std::string::npos) return std::nullopt;
@@ -210,6 +226,29 @@ CLI::Validator sample_range() {
       "");
 }
 
+CLI::Validator memory_size() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return parse_memory_size(text) ? std::string()
+                                       : found(text, "a size in bytes, as in 4G or 512M (of 1024), or none");
+      },
+      "");
+}
+
+void MemoryArguments::add_to(CLI::App& command) {
+  command
+      .add_option("--max-memory", size,
+                  "Memory that the program may take, as in 4G or 512M; what does not fit is refused before it is\n"
+                  "loaded. Default: nine tenths of what is available; none: no limit")
+      ->check(memory_size())
+      ->type_name("SIZE");
+}
+
+std::shared_ptr<MemoryBudget> MemoryArguments::budget() const {
+  if (size.empty()) return MemoryBudget::of_machine();
+  return MemoryBudget::of_process(parse_memory_size(size).value());
+}
+
 void SceneArguments::add_to(CLI::App& command) {
   command.add_option("SCENE", scene, "Mitsuba 3 XML file, or a name that 'norrsken scenes' lists")
       ->required()
@@ -228,6 +267,7 @@ void SceneArguments::add_to(CLI::App& command) {
   command.add_option("--spp", spp, "Samples per pixel in place of the scene's; sets $spp too, unless -D does")
       ->check(whole_number(1, std::numeric_limits<int>::max()))
       ->type_name("N");
+  memory.add_to(command);
 }
 
 LoadOptions SceneArguments::load_options() const {
@@ -237,6 +277,7 @@ LoadOptions SceneArguments::load_options() const {
   options.sampler = sampler;
   if (!size.empty()) std::tie(options.width, options.height) = parse_size(size);
   if (spp > 0) options.samples_per_pixel = spp;
+  options.memory = memory.budget();
   return options;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "exit_status.h"
+#include "norrsken/memory.h"
 #include "norrsken/render.h"
 #include "norrsken/scene.h"
 
@@ -31,6 +33,9 @@ std::pair<int, int> parse_size(const std::string& text);
 std::optional<double> parse_duration(const std::string& text);
 /// "1%", "0.01": a share greater than 0 and less than 1; empty if it is anything else.
 std::optional<double> parse_share(const std::string& text);
+/// "4G", "512M", "1.5G", "65536": bytes, at least 1, in units of 1024; "none": MemoryBudget::kUnlimited. Empty if it is
+/// anything else.
+std::optional<std::uint64_t> parse_memory_size(const std::string& text);
 /// "16:64": samples 16 to 63; empty if it is anything else, or no sample.
 std::optional<SampleRange> parse_samples(const std::string& text);
 
@@ -44,12 +49,22 @@ CLI::Validator definition();
 CLI::Validator duration();
 CLI::Validator sample_range();
 CLI::Validator share();
+CLI::Validator memory_size();
 
-/// The scene and what may be said over its head: SCENE, -D, --integrator, --sampler, --size, --spp.
+/// How much memory the program may take: --max-memory.
+struct MemoryArguments {
+  std::string size;  ///< empty: what the machine has
+
+  void add_to(CLI::App& command);
+  std::shared_ptr<MemoryBudget> budget() const;
+};
+
+/// The scene and what may be said over its head: SCENE, -D, --integrator, --sampler, --size, --spp; --max-memory.
 struct SceneArguments {
   std::string scene, size;
   std::optional<std::string> integrator, sampler;
   std::vector<std::string> definitions;
+  MemoryArguments memory;
   int spp = 0;  ///< 0: the scene's
 
   void add_to(CLI::App& command);

@@ -16,13 +16,17 @@ namespace {
 struct Arguments {
   std::string a, b, output;
   ToneArguments tone;
+  MemoryArguments memory;
   bool json = false;
 };
 
 /// Complaints about one image after the other are printed; the first one's status stays.
-void read_image_or_tell(const std::string& path, Image& image, ExitStatus& result) {
-  const IoStatus status = read_image(path, image);
-  if (status) return;
+void read_image_or_tell(const std::string& path, MemoryBudget& memory, Image& image, ExitStatus& result) {
+  const IoStatus status = read_image(path, image, memory.left());
+  if (status) {
+    for (const Channel& channel : image.channels) memory.take(channel.values.size() * sizeof(float));
+    return;
+  }
   print_error(status.error);
   if (result == ExitStatus::done) result = unreadable_input_status(path);
 }
@@ -69,8 +73,9 @@ ExitStatus compare_images(const Arguments& arguments) {
   const bool wants_difference = !arguments.output.empty();
   ExitStatus wrong = check_output(arguments);
   Image a, b;
-  read_image_or_tell(arguments.a, a, wrong);
-  read_image_or_tell(arguments.b, b, wrong);
+  const auto memory = arguments.memory.budget();
+  read_image_or_tell(arguments.a, *memory, a, wrong);
+  read_image_or_tell(arguments.b, *memory, b, wrong);
   if (wrong != ExitStatus::done) return wrong;
   if (a.width != b.width || a.height != b.height)
     throw Failure(ExitStatus::data_error, fmt::format("the images differ in size: {} is {}x{}, {} {}x{}", arguments.a,
@@ -78,6 +83,7 @@ ExitStatus compare_images(const Arguments& arguments) {
   Comparison comparison;
   CompareOptions options;
   options.tone = arguments.tone.tone_mapping();
+  options.memory = memory;
   Image difference;
   const IoStatus status = compare(a, b, options, comparison, wants_difference ? &difference : nullptr);
   if (!status)
@@ -98,6 +104,7 @@ void add_compare_command(CLI::App& app, Action& action) {
   command->add_option("-o,--output", arguments->output, "Write the absolute difference to this EXR, PNG or JPEG file")
       ->type_name("FILE");
   arguments->tone.add_to(*command);
+  arguments->memory.add_to(*command);
   command->add_flag("--json", arguments->json, "Print one JSON object");
   command->footer(
       "MSE and relMSE are of linear radiance, PSNR and FLIP of the tone-mapped images. The z-test asks, for every\n"

@@ -29,6 +29,7 @@ constexpr const char* kSceneName = "hexagon_room";
 struct Arguments {
   std::string folder, sampler = "independent", command;
   MachineArguments machine;
+  MemoryArguments memory;
   bool quick = false, quiet = false;
 };
 
@@ -195,7 +196,8 @@ class Workshop {
                                       .integrator = result.integrator,
                                       .sampler = result.sampler,
                                       .width = report_.width,
-                                      .height = report_.height};
+                                      .height = report_.height,
+                                      .memory = arguments_.memory.budget()};
     const Scene scene = load_scene(kSceneName, load_options);
     RenderOptions options;
     arguments_.machine.apply_to(options);
@@ -280,6 +282,7 @@ void add_figures_command(CLI::App& app, Action& action) {
                    "Sampler of the figures: independent (default, as in the report), sobol")
       ->type_name("NAME");
   arguments->machine.add_to(*command);
+  arguments->memory.add_to(*command);
   command->add_flag("--quiet", arguments->quiet, "Print errors only");
   command->footer(
       "Renders the hexagon room with 3 bounces at the settings of figures 5 to 13, each to PNG and EXR, measures\n"

@@ -39,7 +39,14 @@ void print_as_json(const std::string& scene, const SceneInfo& info) {
                                    {"lights", info.lights},
                                    {"bounds_min", info.bounds_min},
                                    {"bounds_max", info.bounds_max},
-                                   {"table_bytes", info.table_bytes},
+                                   {"table_bytes", info.memory.tables()},
+                                   {"memory",
+                                    {{"geometry_bytes", info.memory.geometry},
+                                     {"texture_bytes", info.memory.textures},
+                                     {"film_bytes", info.memory.film},
+                                     {"image_bytes", info.memory.image},
+                                     {"loading_peak_bytes", info.memory.loading},
+                                     {"embree_estimate_bytes", info.memory.embree}}},
                                    {"parameters", parameters},
                                    {"items", items}};
   if (!info.accelerator.empty()) object["accelerator"] = info.accelerator;
@@ -65,7 +72,12 @@ void print_as_text(const std::string& scene, const SceneInfo& info) {
       fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", info.bounds_min[0], info.bounds_min[1],
                   info.bounds_min[2], info.bounds_max[0], info.bounds_max[1], info.bounds_max[2]));
   if (!info.accelerator.empty()) row("accelerator", info.accelerator);
-  row("memory", format_bytes(info.table_bytes));
+  const SceneInfo::Memory& memory = info.memory;
+  row("memory", fmt::format("geometry {}, textures {}, other tables {}; film {}, its image {}",
+                            format_bytes(memory.geometry), format_bytes(memory.textures),
+                            format_bytes(memory.other_tables), format_bytes(memory.film), format_bytes(memory.image)));
+  row("", fmt::format("{} at most while it was loaded, film and image included; about {} for Embree, if it is used",
+                      format_bytes(memory.loading), format_bytes(memory.embree)));
 
   if (!info.parameters.empty()) {
     print_line("parameters (-DNAME=VALUE)");

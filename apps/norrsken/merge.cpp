@@ -17,6 +17,7 @@ namespace {
 struct Arguments {
   std::vector<std::string> files, outputs;
   ToneArguments tone;
+  MemoryArguments memory;
   bool layers = false, quiet = false;
 };
 
@@ -37,7 +38,7 @@ ExitStatus status_of(const std::vector<std::string>& files) {
 ExitStatus merge(const Arguments& arguments) {
   if (const ExitStatus outputs = check_outputs(arguments.outputs); outputs != ExitStatus::done) return outputs;
   MergedRender merged;
-  const IoStatus status = merge_renders(arguments.files, arguments.layers, merged);
+  const IoStatus status = merge_renders(arguments.files, arguments.layers, merged, arguments.memory.budget());
   if (!status) throw Failure(status_of(arguments.files), status.error);
 
   if (!merged.gaps.empty()) print_warning(fmt::format("no file holds the samples {}", list_of(merged.gaps)));
@@ -70,6 +71,7 @@ void add_merge_command(CLI::App& app, Action& action) {
   command->add_flag("--layers", arguments->layers,
                     "Add sample count, variance and error layers to EXR files, and features that were rendered");
   arguments->tone.add_to(*command);
+  arguments->memory.add_to(*command);
   command->add_flag("--quiet", arguments->quiet, "Print errors and warnings only");
   command->footer(
       "The image is that of one rendering of all samples, bit for bit, in whatever order the files are named. Files "

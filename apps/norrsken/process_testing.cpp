@@ -48,6 +48,10 @@ Channel open_terminal() {
     const rlimit limit{options.largest_file, options.largest_file};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (options.address_space > 0) {
+    const rlimit limit{options.address_space, options.address_space};
+    setrlimit(RLIMIT_AS, &limit);
+  }
   if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);
   if (!options.stdout_file.empty()) out = open(options.stdout_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
@@ -100,7 +104,9 @@ ProcessResult run_program(const std::vector<std::string>& arguments, const Proce
   close(out.read_end);
   close(err.read_end);
   int status = 0;
-  waitpid(child, &status, 0);
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  result.peak_memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
 }

@@ -1,10 +1,12 @@
 // How far two images are apart.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "norrsken/image.h"
+#include "norrsken/memory.h"
 
 namespace norrsken {
 
@@ -30,8 +32,9 @@ struct Comparison {
 };
 
 struct CompareOptions {
-  ToneMapping tone;               ///< for PSNR and FLIP
-  double pixels_per_degree = 67;  ///< FLIP's viewing condition: 0.7 m from a 0.7 m wide 3840-pixel screen
+  ToneMapping tone;                           ///< for PSNR and FLIP
+  std::shared_ptr<MemoryBudget> memory = {};  ///< for what it takes beside the images; empty: all that there is
+  double pixels_per_degree = 67;              ///< FLIP's viewing condition: 0.7 m from a 0.7 m wide 3840-pixel screen
 };
 
 /// Compares `a` with the reference `b`; both need R, G, B and one size, otherwise `error` says what differs.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -52,8 +53,10 @@ IoStatus write_image(const std::string& path, const Image& image, const ToneMapp
 
 /// Reads EXR, PNG, JPEG, HDR, PFM and its relatives, BMP, TGA and TIFF as float channels; 8-bit colour is decoded to
 /// linear, alpha is left as the file has it (not multiplied). Of several images in a file the first counts. Errors: not
-/// a regular file, above 4 GiB, unknown or damaged, more than 2^30 values. `image` changes on success only.
-IoStatus read_image(const std::string& path, Image& image);
+/// a regular file, above 4 GiB, unknown or damaged, more than 2^30 values or `most_bytes`, decoding included. `image`
+/// changes on success only.
+IoStatus read_image(const std::string& path, Image& image,
+                    std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
 
 /// Whether `write_image` knows the extension: empty, or what is wrong and accepted.
 IoStatus check_image_name(const std::string& path);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "norrsken/image.h"
+#include "norrsken/memory.h"
 #include "norrsken/render.h"
 
 namespace norrsken {
@@ -19,8 +21,10 @@ struct MergedRender {
 
 /// The image of all samples that the files hold, bit for bit that of one rendering of them (see base/exact_sum.h),
 /// whatever the order of the files. `layers` as in Render::image.
+/// `memory` is that of two films and the image; empty: MemoryBudget::of_machine().
 /// Errors: a file that cannot be read, is damaged or not finished; files of different renderings (scene, size, seed,
 /// sampler, instruction set, ...); samples that two files hold. `result` changes on success only.
-IoStatus merge_renders(const std::vector<std::string>& files, bool layers, MergedRender& result);
+IoStatus merge_renders(const std::vector<std::string>& files, bool layers, MergedRender& result,
+                       std::shared_ptr<MemoryBudget> memory = {});
 
 }  // namespace norrsken

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "norrsken/diagnostics.h"
+#include "norrsken/memory.h"
 
 namespace norrsken {
 
@@ -23,6 +24,8 @@ struct LoadOptions {
   std::optional<int> width = {}, height = {};
   /// In place of the scene's; a $spp parameter that `parameters` does not set follows.
   std::optional<int> samples_per_pixel = {};
+  /// For loading and for what is rendered of the scene. Empty: MemoryBudget::of_machine().
+  std::shared_ptr<MemoryBudget> memory = {};
 };
 
 /// What `norrsken info` tells.
@@ -41,7 +44,16 @@ struct SceneInfo {
   double bounds_min[3] = {}, bounds_max[3] = {};
   int width = 0, height = 0, samples_per_pixel = 0, max_depth = 0, rr_depth = 0, emitter_samples = 0;
   std::string integrator, sampler, accelerator;
-  std::uint64_t table_bytes = 0;
+
+  /// Bytes, as the budget counts them.
+  struct Memory {
+    std::uint64_t geometry = 0, textures = 0, other_tables = 0;
+    std::uint64_t loading = 0;  ///< the most that was counted at once while the scene was loaded
+    std::uint64_t film = 0;     ///< at its size
+    std::uint64_t image = 0;    ///< that the film becomes, with all layers, and writing it
+    std::uint64_t embree = 0;   ///< an estimate of what the acceleration structure takes, if Embree makes it
+    std::uint64_t tables() const { return geometry + textures + other_tables; }
+  } memory;
 };
 
 struct BuiltinScene {

@@ -6,8 +6,8 @@
 namespace norrsken {
 namespace {
 
-std::vector<float> triangle_extents(const SceneTables& scene) {
-  std::vector<float> extents(scene.triangle_count());
+Array<float> triangle_extents(const SceneTables& scene) {
+  Array<float> extents(scene.triangle_count());
   for (std::size_t i = 0; i < extents.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       const float* p = scene.positions.data() + std::size_t{3} * scene.triangle_vertices[3 * i + k];

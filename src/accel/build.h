@@ -1,10 +1,13 @@
 // Acceleration structures from the scene's tables, on the host.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "base/memory.h"
 #include "tables/accel_tables.h"
 #include "tables/scene_tables.h"
 
@@ -22,7 +25,7 @@ struct PlaneTables {
 PlaneTables build_planes(const SceneTables& scene);
 
 /// The spheres in order of their primitives.
-std::vector<SphereRecord> build_spheres(const SceneTables& scene);
+Array<SphereRecord> build_spheres(const SceneTables& scene);
 
 /// A shape made of elements, as Embree's callbacks find it.
 struct ElementShape {
@@ -30,11 +33,27 @@ struct ElementShape {
   const float* table;  ///< what its host file left for it
 };
 
+/// What an Embree device allocates, in the budget of the scope that it was made in.
+class EmbreeMemory {
+ public:
+  ~EmbreeMemory();
+  /// Counts `bytes` that are taken or, below 0, given back. False if there are not so many.
+  bool report(std::int64_t bytes, bool is_done) noexcept;
+  /// MemoryExceeded if a report was answered so.
+  void throw_if_exceeded() const;
+
+ private:
+  std::shared_ptr<MemoryBudget> budget_ = MemoryScope::current();
+  std::atomic<std::int64_t> taken_{0};
+  std::atomic<std::uint64_t> refused_{0};            ///< bytes of the first that was
+  std::atomic<std::uint64_t> used_when_refused_{0};  ///< of the budget: a build that fails gives back before it says so
+};
+
 /// The world as an Embree scene, with a scene of its own for every group that instances place in it.
 class EmbreeScene {
  public:
   /// Borrows both arguments.
-  EmbreeScene(const SceneTables& scene, const std::vector<SphereRecord>& spheres);
+  EmbreeScene(const SceneTables& scene, std::span<const SphereRecord> spheres);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -45,9 +64,11 @@ class EmbreeScene {
  private:
   EmbreeScene();  // nothing but a device; from here on the destructor cleans up whatever fails
 
-  std::uint32_t add_group(const SceneTables& scene, const std::vector<SphereRecord>& spheres, std::uint32_t group);
+  void build(const SceneTables& scene, std::span<const SphereRecord> spheres);
+  std::uint32_t add_group(const SceneTables& scene, std::span<const SphereRecord> spheres, std::uint32_t group);
   void add_instances(const SceneTables& scene, const std::vector<std::uint32_t>& group_geometries);
 
+  EmbreeMemory memory_;  ///< outlives the device, which reports to it
   void* device_ = nullptr;
   void* positions_ = nullptr;                 ///< RTCBuffer of all vertices
   std::vector<void*> scenes_;                 ///< RTCScene: the world, then the groups
@@ -74,8 +95,8 @@ class Accel {
 
  private:
   PlaneTables planes_;
-  std::vector<SphereRecord> spheres_;
-  std::vector<float> triangle_extent_;
+  Array<SphereRecord> spheres_;
+  Array<float> triangle_extent_;
   std::unique_ptr<EmbreeScene> embree_;
   AccelView view_;
 };

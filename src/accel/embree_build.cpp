@@ -1,7 +1,10 @@
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
+#include <new>
+#include <span>
 #include <stdexcept>
 
 #include "accel/build.h"
@@ -53,7 +56,7 @@ RTCGeometry make_triangles(RTCDevice device, const SceneTables& scene, RTCBuffer
   return geometry;
 }
 
-RTCGeometry make_geometry(RTCDevice device, const SceneTables& scene, const std::vector<SphereRecord>& spheres,
+RTCGeometry make_geometry(RTCDevice device, const SceneTables& scene, std::span<const SphereRecord> spheres,
                           const std::vector<ElementShape>& element_shapes, RTCBuffer positions, const Run& run) {
   switch (run.of) {
     case Run::Class::triangles:
@@ -75,7 +78,7 @@ RTCScene new_scene(RTCDevice device) {
   return scene;
 }
 
-RTCBuffer copy_positions(RTCDevice device, const std::vector<float>& positions) {
+RTCBuffer copy_positions(RTCDevice device, std::span<const float> positions) {
   // Embree reads 16 bytes from every vertex.
   RTCBuffer buffer = rtcNewBuffer(device, (positions.size() + 1) * sizeof(float));
   void* data = buffer == nullptr ? nullptr : rtcGetBufferData(buffer);
@@ -88,11 +91,59 @@ RTCBuffer copy_positions(RTCDevice device, const std::vector<float>& positions) 
 
 EmbreeScene::EmbreeScene() {
   RTCDevice device = rtcNewDevice(nullptr);
-  if (device == nullptr) throw std::runtime_error("Embree cannot create a device");
+  if (device == nullptr) {
+    if (rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw std::runtime_error("Embree cannot create a device: the system may be out of memory or of threads");
+  }
   device_ = device;
+  rtcSetDeviceMemoryMonitorFunction(
+      device,
+      [](void* memory, ssize_t bytes, bool post) { return static_cast<EmbreeMemory*>(memory)->report(bytes, post); },
+      &memory_);
 }
 
-EmbreeScene::EmbreeScene(const SceneTables& scene, const std::vector<SphereRecord>& spheres) : EmbreeScene() {
+EmbreeMemory::~EmbreeMemory() {
+  if (budget_) budget_->give_back(static_cast<std::uint64_t>(taken_.load()));
+}
+
+bool EmbreeMemory::report(std::int64_t bytes, bool is_done) noexcept {
+  if (!budget_) return true;
+  if (bytes < 0) {
+    // What a failed build takes back need not have been reported before.
+    std::int64_t taken = taken_.load(), back = 0;
+    do back = std::min(-bytes, taken);
+    while (!taken_.compare_exchange_weak(taken, taken - back));
+    budget_->give_back(static_cast<std::uint64_t>(back));
+    return true;
+  }
+  const auto wanted = static_cast<std::uint64_t>(bytes);
+  if (budget_->take(wanted)) {
+    taken_ += bytes;
+    return true;
+  }
+  std::uint64_t none = 0;
+  if (refused_.compare_exchange_strong(none, wanted)) used_when_refused_ = budget_->used();
+  return is_done;  // too late to refuse
+}
+
+void EmbreeMemory::throw_if_exceeded() const {
+  const std::uint64_t wanted = refused_.load();
+  if (wanted == 0) return;
+  MemoryExceeded exceeded(wanted, *budget_);
+  exceeded.used = used_when_refused_.load();
+  throw exceeded;
+}
+
+EmbreeScene::EmbreeScene(const SceneTables& scene, std::span<const SphereRecord> spheres) : EmbreeScene() {
+  try {
+    build(scene, spheres);
+  } catch (const std::bad_alloc&) {
+    memory_.throw_if_exceeded();  // then it is we who had no more
+    throw;
+  }
+}
+
+void EmbreeScene::build(const SceneTables& scene, std::span<const SphereRecord> spheres) {
   const auto device = static_cast<RTCDevice>(device_);
   positions_ = copy_positions(device, scene.positions);
   for (const AnalyticRecord& record : scene.analytics)
@@ -102,7 +153,10 @@ EmbreeScene::EmbreeScene(const SceneTables& scene, const std::vector<SphereRecor
   for (std::uint32_t g = 0; g < scene.group_count; ++g) group_geometries.push_back(add_group(scene, spheres, g));
   add_instances(scene, group_geometries);
   rtcCommitScene(static_cast<RTCScene>(scenes_.front()));
-  if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build the scene");
+  const RTCError error = rtcGetDeviceError(device);
+  memory_.throw_if_exceeded();
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build the scene");
 }
 
 EmbreeScene::~EmbreeScene() {
@@ -112,7 +166,7 @@ EmbreeScene::~EmbreeScene() {
 }
 
 /// Returns the number of its first geometry. The world, group kNone, is left open for instances.
-std::uint32_t EmbreeScene::add_group(const SceneTables& scene, const std::vector<SphereRecord>& spheres,
+std::uint32_t EmbreeScene::add_group(const SceneTables& scene, std::span<const SphereRecord> spheres,
                                      std::uint32_t group) {
   const auto device = static_cast<RTCDevice>(device_);
   RTCScene embree = new_scene(device);

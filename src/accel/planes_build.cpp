@@ -192,8 +192,8 @@ PlaneTables build_planes(const SceneTables& scene) {
   return tables;
 }
 
-std::vector<SphereRecord> build_spheres(const SceneTables& scene) {
-  std::vector<SphereRecord> spheres;
+Array<SphereRecord> build_spheres(const SceneTables& scene) {
+  Array<SphereRecord> spheres;
   const std::uint32_t first = scene.triangle_count();
   for (std::uint32_t i = first; i < first + scene.sphere_count(); ++i) {
     const SurfaceRecord& s = scene.surfaces[i];

@@ -3,7 +3,6 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
-#include <vector>
 
 #include "tables/scene_tables.h"
 
@@ -16,7 +15,7 @@ struct AnalyticShape {
   double area;                  ///< in the world
   bool flip_normals;  ///< the local normal, taken to the world through the inverse transpose, is turned around
   glm::dvec3 lower{-1, -1, 0}, upper{1, 1, 1};  ///< local bounds
-  std::vector<float> table = {};                ///< what the kernels read of a shape made of elements
+  Array<float> table = {};                      ///< what the kernels read of a shape made of elements
   std::uint32_t element_count = 1;              ///< of such a shape
   /// The elements are primitives of their own: a hit tells which one. Otherwise the shape is one primitive.
   bool elements_are_primitives = false;

@@ -6,11 +6,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "base/memory.h"
 #include "base/text.h"
 #include "compile/plugins.h"
+#include "compile/within_memory.h"
 #include "sampler/sampler_host.h"
 #include "scene/constant_spectrum.h"
+#include "tables/accel_memory.h"
 #include "tables/film_memory.h"
 
 namespace norrsken {
@@ -23,17 +24,10 @@ constexpr int kMaxIntegratorDepth = 8;
 
 template <class Container>
 std::uint64_t bytes_of(const Container& container) {
-  return container.size() * sizeof(container[0]);
+  return container.capacity() * sizeof(container[0]);
 }
 
 }  // namespace
-
-std::string film_memory_message(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t memory) {
-  constexpr double kGibibyte = 1 << 30;
-  return fmt::format("a film of {} x {} pixels needs {:.1f} GiB, this machine has {:.1f} GiB", width, height,
-                     static_cast<double>(width) * height * static_cast<double>(bytes_per_pixel) / kGibibyte,
-                     static_cast<double>(memory) / kGibibyte);
-}
 
 void Builder::refuse_kinds_to_come(Parameters& parameters) {
   for (const Node::Child& child : parameters.node().children) {
@@ -213,7 +207,7 @@ auto Builder::compile_chosen(const Node::Child* child, const char* kind, const c
   return settings;
 }
 
-FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options) {
+FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options, SourceLocation& place) {
   FilmSettings settings;
   Node default_film;
   default_film.kind = "film";
@@ -241,15 +235,10 @@ FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options) {
   override_side("width", options.width, settings.full_width, settings.crop_x, settings.width);
   override_side("height", options.height, settings.full_height, settings.crop_y, settings.height);
   const auto pixels = static_cast<std::uint64_t>(std::int64_t{settings.width} * settings.height);
-  const SourceLocation place = options.width || options.height ? SourceLocation{} : node.location;
+  place = options.width || options.height ? SourceLocation{} : node.location;
   if (pixels > kMaxFilmPixels) {
     diagnostics_.error(place, fmt::format("a film of {} x {} has {} pixels", settings.width, settings.height, pixels),
                        fmt::format("up to {} pixels", kMaxFilmPixels));
-  } else if (const std::uint64_t memory = physical_memory(),
-             bytes = film_bytes_per_pixel(settings, scene_.layers, tables().integrator.from_lights);
-             pixels * bytes > memory) {
-    diagnostics_.error(place, film_memory_message(settings.width, settings.height, bytes, memory),
-                       fmt::format("up to {} pixels", memory / bytes));
   }
   std::string detail = fmt::format("{} x {}", settings.width, settings.height);
   if (settings.width != settings.full_width || settings.height != settings.full_height) {
@@ -258,6 +247,29 @@ FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options) {
   }
   describe(node, std::move(detail));
   return settings;
+}
+
+void Builder::reserve_film(const SourceLocation& place) {
+  const FilmSettings& settings = tables().film;
+  SceneInfo::Memory& memory = scene_.info.memory;
+  const std::uint64_t film_bytes = film_bytes_per_pixel(settings, tables().sampler.kind, scene_.layers,
+                                                        tables().integrator.from_lights),
+                      image_bytes = image_bytes_per_pixel(settings, scene_.layers);
+  const auto pixels = static_cast<std::uint64_t>(std::int64_t{settings.width} * settings.height);
+  memory.film = pixels * film_bytes, memory.image = pixels * image_bytes;
+  try {
+    film_memory_ = MemoryReservation(memory.film + memory.image);
+  } catch (const MemoryExceeded& e) {
+    const std::uint64_t left = e.limit - std::min(e.used, e.limit);
+    diagnostics_.error(
+        place,
+        shortage_text(
+            fmt::format("a film of {} x {} pixels with its image needs", settings.width, settings.height).c_str(),
+            e.wanted, left, e.limit),
+        fmt::format("up to {} pixels, as by a smaller --size, or a larger --max-memory",
+                    left / (film_bytes + image_bytes)));
+    throw LoadingStopped{};
+  }
 }
 
 void Builder::override_samples_per_pixel(const LoadOptions& options) {
@@ -283,10 +295,12 @@ void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
   const auto* plugin = find_plugin(sensor_plugins(), node, diagnostics_);
   if (!plugin) return;
   Parameters p = parameters(node);
-  tables().film = film(p, options);
+  SourceLocation film_place;
+  tables().film = film(p, options, film_place);
   tables().sampler =
       compile_chosen(p.child("sampler"), "sampler", "sobol", options.sampler, sampler_plugins(), scene_.info.sampler);
   override_samples_per_pixel(options);
+  if (!diagnostics_.has_errors()) reserve_film(film_place);
   tables().camera = plugin->compile(p, *this, tables().film);
   p.finish();
 }
@@ -295,7 +309,8 @@ void Builder::compile_emitter(const Node& node, std::uint32_t shape) {
   const auto* plugin = find_plugin(emitter_plugins(), node, diagnostics_);
   if (!plugin) return;
   Parameters p = parameters(node);
-  plugin->compile(p, *this, shape);
+  within_memory(node.location, "emitter " + quoted(node.plugin), diagnostics_,
+                [&] { plugin->compile(p, *this, shape); });
   p.finish();
 }
 
@@ -313,8 +328,14 @@ void Builder::compile_shape(const Node& node) {
   const auto* plugin = find_plugin(shape_plugins(), node, diagnostics_);
   if (!plugin) return;
   Parameters p = parameters(node);
+  within_memory(p.has("filename") ? p.where("filename") : node.location, "shape " + quoted(node.plugin), diagnostics_,
+                [&] { compile_shape(p, plugin->compile); });
+}
+
+void Builder::compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compile)(Parameters&, Builder&)) {
+  const Node& node = p.node();
   // An empty shape stands in for a broken one, so that its emitter's complaints are heard too.
-  ShapeGeometry geometry = plugin->compile(p, *this).value_or(ShapeGeometry{});
+  ShapeGeometry geometry = compile(p, *this).value_or(ShapeGeometry{});
   if (!geometry.of_shapes) {
     const Material material = material_of(p);
     const Node::Child* emitter = p.child("emitter");
@@ -363,10 +384,15 @@ void Builder::summarise() {
   info.max_depth = t.integrator.max_depth;
   info.rr_depth = t.integrator.rr_depth;
   info.emitter_samples = t.integrator.emitter_samples;
-  info.table_bytes = bytes_of(t.positions) + bytes_of(t.normals) + bytes_of(t.texcoords) +
-                     bytes_of(t.triangle_vertices) + bytes_of(t.surfaces) + bytes_of(t.shapes) + bytes_of(t.analytics) +
-                     bytes_of(t.instances) + bytes_of(t.parameters) + bytes_of(t.texels) + bytes_of(t.lights) +
-                     bytes_of(t.primitive_lights);
+  info.memory.geometry = bytes_of(t.positions) + bytes_of(t.normals) + bytes_of(t.texcoords) +
+                         bytes_of(t.triangle_vertices) + bytes_of(t.surfaces) + bytes_of(t.shapes) +
+                         bytes_of(t.analytics) + bytes_of(t.instances);
+  info.memory.textures = bytes_of(t.texels);
+  info.memory.other_tables = bytes_of(t.parameters) + bytes_of(t.lights) + bytes_of(t.primitive_lights) +
+                             bytes_of(t.light_nodes) + bytes_of(t.light_leaves) + bytes_of(t.lights_around) +
+                             bytes_of(t.filter);
+  info.memory.embree = embree_bytes(t);
+  if (const auto& budget = MemoryScope::current()) info.memory.loading = budget->peak();
 }
 
 LoadedScene Builder::build(const LoadOptions& options) {
@@ -394,6 +420,8 @@ LoadedScene Builder::build(const LoadOptions& options) {
   attributes_.finish();
   choose_lights();
   summarise();
+  scene_.memory = MemoryScope::current();
+  scene_.file = root.location.file;
   return std::move(scene_);
 }
 

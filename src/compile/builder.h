@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory.h"
 #include "compile/compile.h"
 #include "compile/geometry_builder.h"
 #include "compile/images.h"
@@ -24,9 +25,6 @@ namespace norrsken {
 inline constexpr int kMaxFilmSide = 65536;
 inline constexpr std::uint64_t kMaxFilmPixels = std::uint64_t{1} << 28;
 inline constexpr double kMaxEmission = 1e18;  ///< of radiance and intensity; its square must fit a float
-
-/// For a film of so many bytes per pixel that does not fit `memory` bytes.
-std::string film_memory_message(int width, int height, std::uint64_t bytes_per_pixel, std::uint64_t memory);
 
 /// A parameter that may be a texture; `value` is then a colour to describe it by.
 struct ColorParameter {
@@ -148,8 +146,12 @@ class Builder {
   std::optional<Texture> texture_of(Parameters& p, std::string_view name, double min, double max);
   void compile_sensor(Parameters& scene, const LoadOptions& options);
   void override_samples_per_pixel(const LoadOptions& options);
-  FilmSettings film(Parameters& sensor, const LoadOptions& options);
+  /// `place`: where the film's size comes from.
+  FilmSettings film(Parameters& sensor, const LoadOptions& options, SourceLocation& place);
+  /// Keeps the memory of film and image free while the scene is loaded.
+  void reserve_film(const SourceLocation& place);
   void compile_shape(const Node& node);
+  void compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compile)(Parameters&, Builder&));
   Material material_of(Parameters& shape);
   void compile_emitter(const Node& node, std::uint32_t shape);
   void choose_lights();
@@ -164,6 +166,7 @@ class Builder {
   const FileSystem& files_;
   Diagnostics& diagnostics_;
   LoadedScene scene_;
+  MemoryReservation film_memory_;
   GeometryBuilder geometry_{scene_.tables, diagnostics_};
   std::map<const Node*, std::uint32_t> groups_;
   ImageStore images_{files_, diagnostics_, scene_.tables};
@@ -173,7 +176,7 @@ class Builder {
   std::optional<Material> default_material_;
   int bsdf_depth_ = 0;
   int integrator_depth_ = 0;
-  std::vector<LightPower> light_powers_;
+  Array<LightPower> light_powers_;
 };
 
 }  // namespace norrsken

@@ -14,6 +14,8 @@ namespace norrsken {
 
 /// A scene ready to be rendered, with the names that its users know its parts by.
 struct LoadedScene {
+  std::shared_ptr<MemoryBudget> memory;  ///< that the tables are counted in
+  std::string file;                      ///< for complaints about the scene as a whole
   SceneTables tables;
   SceneLayers layers;
   SceneInfo info;  ///< all but `accelerator`, which is chosen when rendering

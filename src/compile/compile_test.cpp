@@ -79,8 +79,8 @@ TEST(Compile, InfoTellsWhatTheSceneContains) {
   EXPECT_EQ(info.rr_depth, 5);
   EXPECT_EQ(info.emitter_samples, 1);
   EXPECT_THAT(info.parameters, ElementsAre(std::pair<std::string, std::string>("n", "3")));
-  EXPECT_GT(info.table_bytes, 3 * sizeof(SurfaceRecord));
-  EXPECT_LT(info.table_bytes, 1000u);
+  EXPECT_GT(info.memory.tables(), 3 * sizeof(SurfaceRecord));
+  EXPECT_LT(info.memory.tables(), 1000u);
   const auto item = [&](const std::string& id) {
     for (const auto& candidate : info.items) {
       if (candidate.id == id) return candidate.kind + " " + candidate.plugin + ": " + candidate.detail;

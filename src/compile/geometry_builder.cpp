@@ -17,15 +17,19 @@ constexpr std::size_t kMaxElements = std::size_t{1} << 29;
 /// Room for `count` more and something to spare, which costs nothing before it is touched: what comes behind a large
 /// mesh must not make it move, and many small ones must not move what is there each time.
 template <class T>
-void make_room(std::size_t count, std::vector<T>& values) {
-  if (values.capacity() - values.size() < count)
-    values.reserve(std::max(values.size() + count + count / 8, values.size() + values.size() / 2));
+void make_room(std::size_t count, Array<T>& values) {
+  if (values.capacity() - values.size() >= count) return;
+  const std::size_t needed = values.size() + count;
+  const std::size_t spare = std::max(needed + count / 8, values.size() + values.size() / 2);
+  const std::shared_ptr<MemoryBudget> memory = values.get_allocator().budget();
+  // What is only to spare is not worth refusing a scene that fits.
+  values.reserve(memory && memory->left() < spare * sizeof(T) ? needed : spare);
 }
 
 /// Copies `from` behind `to` and frees it.
 template <class T, std::size_t N>
-void append(std::vector<std::array<T, N>>&& from, std::vector<T>& to) {
-  const std::vector<std::array<T, N>> source = std::move(from);
+void append(Array<std::array<T, N>>&& from, Array<T>& to) {
+  const Array<std::array<T, N>> source = std::move(from);
   if (source.empty()) return;
   make_room(N * source.size(), to);
   to.insert(to.end(), source.front().data(), source.front().data() + N * source.size());
@@ -61,7 +65,7 @@ void GeometryBuilder::Box::extend(const Box& box, const glm::dmat4& map) {
   }
 }
 
-std::vector<SurfaceRecord>& GeometryBuilder::surfaces(Class of) {
+Array<SurfaceRecord>& GeometryBuilder::surfaces(Class of) {
   return of == Class::triangles ? tables_.surfaces : of == Class::sphere ? spheres_ : analytics_;
 }
 
@@ -168,7 +172,7 @@ void GeometryBuilder::add_triangles(MeshData mesh, Material material) {
 
 void GeometryBuilder::set_light(std::uint32_t shape, std::uint32_t primitive, std::uint32_t light) {
   ShapeRecord& record = tables_.shapes[shape];
-  std::vector<std::uint32_t>& lights = tables_.primitive_lights;
+  Array<std::uint32_t>& lights = tables_.primitive_lights;
   if (record.lights == kNone) {
     record.lights = static_cast<std::uint32_t>(lights.size());
     lights.resize(lights.size() + record.primitive_count, kNone);

@@ -75,7 +75,7 @@ class GeometryBuilder {
     bool empty() const { return lower.x > upper.x; }
   };
 
-  std::vector<SurfaceRecord>& surfaces(Class of);
+  Array<SurfaceRecord>& surfaces(Class of);
   void add_spheres(const std::vector<ShapeGeometry::Sphere>& spheres, Material material, ShapeRecord& record);
   void add_analytic(const AnalyticShape& analytic, Material material);
   void add_triangles(MeshData mesh, Material material);
@@ -83,8 +83,8 @@ class GeometryBuilder {
 
   SceneTables& tables_;
   Diagnostics& diagnostics_;
-  std::vector<Class> classes_;                      ///< by shape
-  std::vector<SurfaceRecord> spheres_, analytics_;  ///< waiting to be put behind the triangles
+  std::vector<Class> classes_;                ///< by shape
+  Array<SurfaceRecord> spheres_, analytics_;  ///< waiting to be put behind the triangles
   std::uint32_t group_ = kNone;
   std::map<std::uint32_t, Box> boxes_;  ///< by group, the world's at kNone
 };

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/memory.h"
 #include "base/text.h"
 #include "color/srgb.h"
+#include "compile/within_memory.h"
 #include "formats/texel_image.h"
 
 namespace norrsken {
@@ -36,7 +36,9 @@ struct Statistics {
 std::optional<StoredImage> ImageStore::load(const std::string& path, bool raw, const SourceLocation& named_at) {
   const auto key = std::pair(normal_path(path), raw);
   if (const auto known = images_.find(key); known != images_.end()) return known->second;
-  return images_[key] = read(path, raw, named_at);
+  std::optional<StoredImage>& image = images_[key];
+  within_memory(named_at, "image " + quoted(path, 200), diagnostics_, [&] { image = read(path, raw, named_at); });
+  return image;
 }
 
 std::uint32_t ImageStore::byte_table(bool encoded) {
@@ -57,10 +59,11 @@ std::optional<StoredImage> ImageStore::read(const std::string& path, bool raw, c
     return std::nullopt;
   };
   std::string error;
-  const auto contents = files_.read(path, error);
+  auto contents = read_counted(files_, path, error);
   if (!contents) return refuse(error, "an image file");
   TexelImage image;
-  error = read_texels(path, *contents, physical_memory() / 4, image);
+  error = read_texels(path, contents->bytes, image);
+  contents.reset();
   if (!error.empty()) return refuse(error, "a PNG, JPEG, BMP, TGA, EXR or HDR file");
 
   auto& texels = tables_.texels;

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "compile/compile.h"
+#include "compile/within_memory.h"
 #include "formats/mitsuba_xml.h"
 #include "scene/file_system.h"
 
@@ -63,7 +65,12 @@ std::optional<LoadedScene> load_tables(const std::string& path_or_name, const Lo
   const FileSystem files;
   const std::string path = find_scene(path_or_name, files, diagnostics);
   if (path.empty()) return std::nullopt;
-  const auto description = read_mitsuba_xml(path, files, scene_arguments(path, files, options), diagnostics);
+  SourceLocation whole_file;
+  whole_file.file = path;
+  std::optional<Description> description;
+  within_memory(whole_file, "the scene's XML", diagnostics, [&] {
+    description = read_mitsuba_xml(path, files, scene_arguments(path, files, options), diagnostics);
+  });
   if (!description) return std::nullopt;
   return compile(*description, files, options, diagnostics);
 }
@@ -72,7 +79,15 @@ std::optional<LoadedScene> load_tables(const std::string& path_or_name, const Lo
 
 std::optional<Scene> Scene::load(const std::string& path_or_name, const LoadOptions& options,
                                  Diagnostics& diagnostics) {
-  auto loaded = load_tables(path_or_name, options, diagnostics);
+  LoadOptions counted = options;
+  if (!counted.memory) counted.memory = MemoryBudget::of_machine();
+  const MemoryScope scope(counted.memory);
+  std::optional<LoadedScene> loaded;
+  try {
+    loaded = load_tables(path_or_name, counted, diagnostics);
+  } catch (const LoadingStopped&) {
+    // It has been said why.
+  }
   diagnostics.sort();
   if (!loaded) return std::nullopt;
   return Scene(std::make_shared<const LoadedScene>(std::move(*loaded)));

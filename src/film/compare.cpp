@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "color/tone.h"
 #include "film/flip.h"
@@ -18,6 +19,10 @@ constexpr const char* kColorNames[3] = {"R", "G", "B"};
 constexpr const char* kVarianceNames[3] = {"variance.R", "variance.G", "variance.B"};
 constexpr double kSignificance = 0.01;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What is alive at once at most: tone-mapped planes, FLIP's (opponent colours, filtered ones, features and what a filter
+/// works on).
+constexpr std::uint64_t kBytesPerPixel = 112;
 
 using Planes = std::array<const std::vector<float>*, 3>;
 
@@ -150,6 +155,13 @@ IoStatus compare(const Image& a, const Image& b, const CompareOptions& options, 
   if (a.width < 1 || a.height < 1) return {"the images are empty"};
   if (!(options.pixels_per_degree >= 1 && options.pixels_per_degree <= 1000)) {
     return {"pixels per degree: accepted are 1 to 1000"};
+  }
+  MemoryReservation working;
+  try {
+    const auto pixels = static_cast<std::uint64_t>(a.width) * static_cast<std::uint64_t>(a.height);
+    working = MemoryReservation(pixels * kBytesPerPixel, options.memory);
+  } catch (const MemoryExceeded& e) {
+    return {std::string("comparing does not fit into memory: ") + e.what()};
   }
   Planes planes_a, planes_b;
   if (IoStatus status = find_colors(a, "the first", planes_a); !status) return status;

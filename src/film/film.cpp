@@ -17,8 +17,6 @@ namespace {
 
 constexpr const char* kColors[3] = {"R", "G", "B"};
 
-std::uint32_t plane_count(SamplerKind sampler) { return sampler == SamplerKind::independent ? 6 : 3 * kReplicates; }
-
 std::size_t pixel_count(const FilmSettings& settings) {
   return static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
 }
@@ -71,7 +69,7 @@ Film::Film(const FilmSettings& settings, SamplerKind sampler, SceneLayers layers
       sampler_(sampler),
       layers_(std::move(layers)),
       feature_mask_(feature_mask(settings, layers_)),
-      sums_(pixel_count(settings) * plane_count(sampler)),
+      sums_(pixel_count(settings) * radiance_planes(sampler)),
       moments_(layers_.moments.empty() ? 0 : 3 * pixel_count(settings)),
       features_(pixel_count(settings) * static_cast<std::size_t>(std::popcount(feature_mask_))),
       counts_(pixel_count(settings)) {}

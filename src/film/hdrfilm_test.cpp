@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "compile/builder.h"
 #include "compile/compile_testing.h"
@@ -9,6 +8,7 @@ namespace norrsken::testing {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 const std::string kBox = R"(<rfilter type="box"/>)";
@@ -43,18 +43,22 @@ TEST(Hdrfilm, RefusesSizesThatNoMachineHolds) {
   EXPECT_THAT(compile_film(kBox + size("16384", "4096")).messages(), IsEmpty());
 }
 
-TEST(Hdrfilm, RefusesSizesThatThisMachineDoesNotHold) {
-  // 49 GiB: two doubles for three channels of four images, and a count.
-  const auto memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGE_SIZE);
-  const std::vector<std::string> messages = compile_film(kBox + size("65536", "4096")).messages();
-  if (memory >= std::uint64_t{49} << 30) {
-    EXPECT_THAT(messages, IsEmpty());
-  } else {
-    EXPECT_THAT(messages, ElementsAre("error: " + film_memory_message(65536, 4096, 196, memory) + " [up to " +
-                                      std::to_string(memory / 196) + " pixels]"));
-  }
-  EXPECT_EQ(film_memory_message(65536, 4096, 100, std::uint64_t{3} << 29),
-            "a film of 65536 x 4096 pixels needs 25.0 GiB, this machine has 1.5 GiB");
+TEST(Hdrfilm, RefusesSizesThatDoNotFitIntoMemory) {
+  const auto messages = [](const std::string& sampler, const std::string& integrator) {
+    LoadOptions options;
+    options.memory = std::make_shared<MemoryBudget>(std::uint64_t{1} << 30);
+    return compile_elements(integrator + "<sensor type=\"perspective\"><film type=\"hdrfilm\">" + kBox +
+                                size("4096", "4096") + "</film><sampler type=\"" + sampler + "\"/></sensor>" + kShape +
+                                kEmitter,
+                            {}, options)
+        .messages();
+  };
+  // Two doubles for three channels of four images, and a count; ten floats and what writing takes.
+  EXPECT_THAT(messages("sobol", ""),
+              ElementsAre("error: a film of 4096 x 4096 pixels with its image needs 3.92 GiB, and 1.00 GiB of 1.00 GiB "
+                          "are left [up to 4277855 pixels, as by a smaller --size, or a larger --max-memory]"));
+  EXPECT_THAT(messages("independent", ""), ElementsAre(HasSubstr("needs 2.42 GiB")));
+  EXPECT_THAT(messages("sobol", "<integrator type=\"ptracer\"/>"), ElementsAre(HasSubstr("needs 6.92 GiB")));
 }
 
 std::string integer(const std::string& name, int value) {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "base/memory.h"
 #include "norrsken/diagnostics.h"
 
 namespace norrsken {
@@ -16,8 +16,8 @@ namespace norrsken {
 enum class CurveBasis : std::uint32_t { linear = 2, bspline = 4 };
 
 struct CurveData {
-  std::vector<std::array<float, 4>> points;  ///< x, y, z, radius
-  std::vector<std::uint32_t> segments;       ///< the first control point of each
+  Array<std::array<float, 4>> points;  ///< x, y, z, radius
+  Array<std::uint32_t> segments;       ///< the first control point of each
   std::uint32_t curves = 0;
 };
 

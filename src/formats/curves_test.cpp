@@ -7,8 +7,8 @@
 namespace norrsken {
 namespace {
 
-using Points = std::vector<std::array<float, 4>>;
-using Segments = std::vector<std::uint32_t>;
+using Points = Array<std::array<float, 4>>;
+using Segments = Array<std::uint32_t>;
 
 CurveData read(const std::string& text, CurveBasis basis = CurveBasis::linear) {
   Diagnostics diagnostics;

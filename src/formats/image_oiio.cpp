@@ -11,9 +11,11 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
+#include "base/memory.h"
 #include "color/srgb.h"
 
 namespace {
@@ -44,6 +46,21 @@ float decoded(float value, bool srgb, bool counted) {
 
 /// A complaint of OpenImageIO, which may also fail without a word.
 std::string said(const std::string& error) { return error.empty() ? "unknown or damaged image file" : error; }
+
+/// What decoders hold beside their output at most: many the whole image in the file's types.
+std::uint64_t decoding_bytes(const OIIO::ImageSpec& spec) { return spec.image_bytes(/*native=*/true); }
+
+/// Whether a file of so many bytes may hold the image. Deflate makes at most 1032 bytes of one (zlib's manual), runs make
+/// less, and a pixel has a bit or more. Formats that leave out what cannot be seen have no such limit.
+bool may_hold(const OIIO::ImageInput& input, std::size_t file_bytes) {
+  constexpr std::string_view kBounded[] = {"png", "bmp", "targa", "hdr"};
+  constexpr std::string_view kBoundedExr[] = {"none", "rle", "zip", "zips", "pxr24"};
+  const OIIO::ImageSpec& spec = input.spec();
+  const std::string format = input.format_name(), compression = spec.get_string_attribute("compression");
+  const bool bounded = std::ranges::find(kBounded, format) != std::end(kBounded) ||
+                       (format == "openexr" && std::ranges::find(kBoundedExr, compression) != std::end(kBoundedExr));
+  return !bounded || spec.image_pixels() / (8 * 1032) <= file_bytes;
+}
 
 /// Hands the image to `use(values)` in blocks of rows, all channels one behind the other. Empty, or what is
 /// wrong with the file.
@@ -109,7 +126,7 @@ void open(const std::string& path, OpenImage& image) {
   OIIO::geterror();  // which of them said what is of no use
 }
 
-std::string read(const std::string& path, const std::string& contents, Image& image) {
+std::string read(const std::string& path, const std::string& contents, std::uint64_t most_bytes, Image& image) {
   OpenImage file(contents);
   open(path, file);
   if (!file.input) return said({});
@@ -121,6 +138,11 @@ std::string read(const std::string& path, const std::string& contents, Image& im
     return "it has " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + " pixels of " +
            std::to_string(spec.nchannels) + " channels, accepted are " + std::to_string(kMostImageValues) +
            " values in all";
+  }
+  const std::uint64_t bytes = spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) * sizeof(float);
+  if (bytes + decoding_bytes(spec) > most_bytes) {
+    return "it needs " + memory_text(bytes + decoding_bytes(spec)) + " of memory, and " + memory_text(most_bytes) +
+           " are left";
   }
 
   image.width = spec.width;
@@ -155,10 +177,11 @@ std::vector<int> color_channels(const OIIO::ImageSpec& spec) {
 }
 
 template <class T>
-std::string read_channels(OIIO::ImageInput& input, const std::vector<int>& wanted, std::vector<T>& values) {
+std::string read_channels(OIIO::ImageInput& input, const std::vector<int>& wanted, Array<T>& values) {
   const OIIO::ImageSpec& spec = input.spec();
   const auto channels = static_cast<std::size_t>(spec.nchannels);
   const bool counted = spec.format == OIIO::TypeDesc::UINT32;
+  const MemoryReservation decoder(decoding_bytes(spec), values.get_allocator().budget());
   // Reserved memory costs nothing before it is written, so a header cannot ask for more than the file fills.
   values.reserve(spec.image_pixels() * wanted.size());
   return for_each_block<T>(input, std::is_same_v<T, float> ? OIIO::TypeFloat : OIIO::TypeUInt8,
@@ -176,8 +199,7 @@ std::string read_channels(OIIO::ImageInput& input, const std::vector<int>& wante
                            });
 }
 
-std::string read_image_texels(const std::string& path, const std::string& contents, std::size_t max_bytes,
-                              TexelImage& image) {
+std::string read_image_texels(const std::string& path, const std::string& contents, TexelImage& image) {
   OpenImage file(contents);
   open(path, file);
   if (!file.input) return said({});
@@ -187,9 +209,9 @@ std::string read_image_texels(const std::string& path, const std::string& conten
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
   const std::vector<int> wanted = color_channels(spec);
   const bool small = is_integer_of(spec.format, 1);
-  if (spec.image_pixels() > max_bytes / (wanted.size() * (small ? 1 : sizeof(float)))) {
-    return "it has " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
-           " pixels, which this machine's memory cannot hold";
+  if (!may_hold(input, contents.size())) {
+    return "its header says that it has " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+           " pixels, which do not fit a file of " + memory_text(contents.size());
   }
   image.width = spec.width;
   image.height = spec.height;
@@ -215,12 +237,20 @@ bool guarded(std::string& error, const Read& read) noexcept {
 
 }  // namespace
 
-extern "C" bool norrsken_oiio_read(const std::string& path, const std::string& contents, norrsken::Image& image,
-                                   std::string& error) noexcept {
-  return guarded(error, [&] { return read(path, contents, image); });
+extern "C" bool norrsken_oiio_read(const std::string& path, const std::string& contents, std::uint64_t most_bytes,
+                                   norrsken::Image& image, std::string& error) noexcept {
+  return guarded(error, [&] { return read(path, contents, most_bytes, image); });
 }
 
-extern "C" bool norrsken_oiio_read_texels(const std::string& path, const std::string& contents, std::size_t max_bytes,
-                                          norrsken::TexelImage& image, std::string& error) noexcept {
-  return guarded(error, [&] { return read_image_texels(path, contents, max_bytes, image); });
+extern "C" bool norrsken_oiio_read_texels(const std::string& path, const std::string& contents,
+                                          norrsken::TexelImage& image, std::string& error,
+                                          std::exception_ptr& out_of_memory) noexcept {
+  return guarded(error, [&] {
+    try {
+      return read_image_texels(path, contents, image);
+    } catch (const norrsken::MemoryExceeded&) {
+      out_of_memory = std::current_exception();
+      throw;
+    }
+  });
 }

@@ -53,24 +53,25 @@ IoStatus failure(const std::string& path, const std::string& reason) {
 
 }  // namespace
 
-IoStatus read_image(const std::string& path, Image& image) {
+IoStatus read_image(const std::string& path, Image& image, std::uint64_t most_bytes) {
   std::string error;
   const auto contents = read_regular_file(path, error);
   if (!contents) return failure(path, (error.starts_with("is ") ? "it " : "") + error);
 
   Image read;
   auto* reader = find_entry<decltype(norrsken_oiio_read)>("norrsken_oiio_read", error);
-  if (reader == nullptr || !reader(path, *contents, read, error)) return failure(path, error);
+  if (reader == nullptr || !reader(path, *contents, most_bytes, read, error)) return failure(path, error);
   image = std::move(read);
   return {};
 }
 
-std::string read_texels(const std::string& path, const std::string& contents, std::size_t max_bytes,
-                        TexelImage& image) {
+std::string read_texels(const std::string& path, const std::string& contents, TexelImage& image) {
   std::string error;
   auto* reader = find_entry<decltype(norrsken_oiio_read_texels)>("norrsken_oiio_read_texels", error);
   TexelImage read;
-  if (reader != nullptr && reader(path, contents, max_bytes, read, error)) image = std::move(read);
+  std::exception_ptr out_of_memory;
+  if (reader != nullptr && reader(path, contents, read, error, out_of_memory)) image = std::move(read);
+  if (out_of_memory) std::rethrow_exception(out_of_memory);
   return error;
 }
 

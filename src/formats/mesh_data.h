@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/memory.h"
+
 namespace norrsken {
 
 /// Values that a mesh has beside its geometry, for textures to look up by name.
@@ -13,15 +15,15 @@ struct MeshAttribute {
   std::string name;            ///< with "vertex_" or "face_" in front: "vertex_color"
   std::uint32_t channels = 1;  ///< 1 or 3
   bool per_face = false;       ///< a value for each triangle; otherwise one for each vertex
-  std::vector<float> values;   ///< `channels` for each
+  Array<float> values;         ///< `channels` for each
 };
 
 /// Indexed triangles. `normals` and `texcoords` are empty or as long as `positions`.
 struct MeshData {
-  std::vector<std::array<float, 3>> positions;
-  std::vector<std::array<float, 3>> normals;
-  std::vector<std::array<float, 2>> texcoords;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the front
+  Array<std::array<float, 3>> positions;
+  Array<std::array<float, 3>> normals;
+  Array<std::array<float, 2>> texcoords;
+  Array<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the front
   std::vector<MeshAttribute> attributes;
   bool face_normals = false;  ///< the file wants its triangles flat
 };

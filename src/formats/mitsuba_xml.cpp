@@ -22,6 +22,10 @@ constexpr std::size_t kMaxIncludes = 16;                     // inside each othe
 constexpr int kMaxFiles = 10000;                             // included one after the other
 constexpr std::size_t kMaxXmlBytes = std::size_t{64} << 20;  // of all files, each as often as it is included
 
+/// Of memory, beside the text itself: pugixml's nodes, and of a node or a property the texts that it holds (names, and
+/// for complaints the file's name and the line, twice).
+constexpr std::size_t kTreeBytesPerByte = 8, kTextBytes = 512;
+
 const std::vector<std::string> kObjects = {"bsdf",    "emitter", "film",  "integrator", "medium",  "phase", "rfilter",
                                            "sampler", "sensor",  "shape", "spectrum",   "texture", "volume"};
 const std::vector<std::string> kDirectives = {"alias", "default", "include", "path", "ref"};
@@ -53,7 +57,8 @@ class MitsubaReader {
     everything.children = {{{}, scene, {}}, {{}, rejected, {}}};
     if (!references_.resolve(everything) || !complete_) return std::nullopt;
     context_.parameters.finish();
-    return Description{std::move(scene), std::move(context_.search_paths), context_.parameters.values()};
+    return Description{std::move(scene), std::move(context_.search_paths), context_.parameters.values(),
+                       std::move(memory_)};
   }
 
  private:
@@ -80,10 +85,10 @@ class MitsubaReader {
   void read_file(const std::string& path, Scope& into, int depth, const SourceLocation& named_at,
                  std::string_view what) {
     std::string error;
-    auto contents = context_.files.read(path, error);
+    auto contents = read_counted(context_.files, path, error);
     if (!contents)
       return fail(named_at, fmt::format("cannot read {} {}: {}", what, quoted(path, 200), error), "an XML file");
-    xml_bytes_ += contents->size();
+    xml_bytes_ += contents->bytes.size();
     if (xml_bytes_ > kMaxXmlBytes) {
       SourceLocation location;
       location.file = path;
@@ -91,7 +96,8 @@ class MitsubaReader {
                   fmt::format("up to {} MiB, all includes together", kMaxXmlBytes >> 20));
     }
     diagnostics_.named_at(path, named_at);
-    const auto document = XmlDocument::parse(path, std::move(*contents), diagnostics_);
+    const MemoryReservation tree(kTreeBytesPerByte * contents->bytes.size());
+    const auto document = XmlDocument::parse(path, std::move(contents->bytes), diagnostics_);
     if (!document) {
       complete_ = false;
       return;
@@ -189,6 +195,7 @@ class MitsubaReader {
 
   void read_object(const XmlDocument& document, pugi::xml_node xml, Scope& into, int depth) {
     const Element element = context_.open(document, xml, {{"type"}, {"id", "name"}});
+    memory_.grow(sizeof(Node) + kTextBytes);
     auto node = std::make_shared<Node>();
     node->kind = element.name;
     node->plugin = element.text("type");
@@ -294,6 +301,7 @@ class MitsubaReader {
     if (name && !claim(into, name->text, name->location())) return;
     auto property = read_property(context_, document, xml, element);
     if (property) {
+      memory_.grow(sizeof(Property) + kTextBytes);
       into.node.properties.push_back(std::move(*property));
     } else if (name) {
       into.node.unreadable.push_back(name->text);
@@ -305,6 +313,7 @@ class MitsubaReader {
   References references_;
   std::vector<std::string> open_files_;  ///< the file being read and those that include it, outermost first
   std::size_t xml_bytes_ = 0;
+  MemoryReservation memory_{0};
   int file_count_ = 0;
   Node* rejected_ = nullptr;
   bool complete_ = true;

@@ -104,8 +104,7 @@ class ObjReader {
 
   // As many numbers as an element has, of which `required` must be there; what follows (w, colours) is skipped.
   template <std::size_t Count>
-  void numbers(std::vector<std::array<float, Count>>& into, std::string_view keyword, std::size_t required,
-               float limit) {
+  void numbers(Array<std::array<float, Count>>& into, std::string_view keyword, std::size_t required, float limit) {
     std::array<float, Count> values{};
     for (std::size_t i = 0; i < Count; ++i) {
       skip_blanks();
@@ -282,9 +281,9 @@ class ObjReader {
       return mesh;
     }
     // A vertex for every combination of parts, found again in an open-addressing table at most half full.
-    std::vector<std::uint32_t> table(std::bit_ceil(corners_.size() * 2), kAbsent);
+    Array<std::uint32_t> table(std::bit_ceil(corners_.size() * 2), kAbsent);
     const std::size_t mask = table.size() - 1;
-    std::vector<Corner> vertices;
+    Array<Corner> vertices;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const Corner& corner = corners_[i];
       std::size_t slot = hash(corner) & mask;
@@ -317,11 +316,11 @@ class ObjReader {
   const char* at_;
   const char* end_;
   MeshComplaints complaints_;
-  std::vector<std::array<float, 3>> positions_, normals_;
-  std::vector<std::array<float, 2>> texcoords_;
-  std::vector<Corner> corners_;  ///< three for every triangle
-  std::vector<Corner> polygon_;  ///< of the face being read
-  std::vector<ForwardReference> forward_;
+  Array<std::array<float, 3>> positions_, normals_;
+  Array<std::array<float, 2>> texcoords_;
+  Array<Corner> corners_;  ///< three for every triangle
+  Array<Corner> polygon_;  ///< of the face being read
+  Array<ForwardReference> forward_;
   bool has_texcoords_ = false, has_normals_ = false;
 };
 

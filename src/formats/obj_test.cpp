@@ -6,8 +6,8 @@
 namespace norrsken {
 namespace {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-using Points = std::vector<std::array<float, 3>>;
+using Triangles = Array<std::array<std::uint32_t, 3>>;
+using Points = Array<std::array<float, 3>>;
 
 MeshData read(const std::string& text) {
   Diagnostics diagnostics;
@@ -59,7 +59,7 @@ TEST(Obj, VerticesWithOneIndexAreTakenAsTheyAre) {
   const MeshData mesh =
       read("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\nvn 1 0 0\nf 3/3/3 1/1/1 2/2/2\n");
   EXPECT_EQ(mesh.triangles, (Triangles{{2, 0, 1}}));
-  EXPECT_EQ(mesh.texcoords, (std::vector<std::array<float, 2>>{{0, 0}, {1, 0}, {1, 1}}));
+  EXPECT_EQ(mesh.texcoords, (Array<std::array<float, 2>>{{0, 0}, {1, 0}, {1, 1}}));
   EXPECT_EQ(mesh.normals, (Points{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}));
 }
 

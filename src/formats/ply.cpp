@@ -241,7 +241,7 @@ class BodyReader {
     std::vector<Column> columns(element.properties.size());
     add_attributes(element, true, 1, columns);
     const std::span attributes = std::span(mesh_.attributes).subspan(first_attribute);
-    std::vector<std::vector<float>> values(attributes.size());
+    std::vector<Array<float>> values(attributes.size());
     std::vector<bool> is_corners;
     for (const PlyProperty& property : element.properties) is_corners.push_back(is_face_list(property));
     for (std::uint64_t row = 0; row < element.count; ++row) {

@@ -11,8 +11,8 @@
 namespace norrsken {
 namespace {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-using Points = std::vector<std::array<float, 3>>;
+using Triangles = Array<std::array<std::uint32_t, 3>>;
+using Points = Array<std::array<float, 3>>;
 
 MeshData read(const std::string& bytes) {
   Diagnostics diagnostics;

@@ -180,7 +180,7 @@ class SerializedReader {
   std::size_t number_bytes() const { return is_double_ ? sizeof(double) : sizeof(float); }
 
   template <std::size_t N>
-  bool read_vertices(Inflater& input, std::vector<std::array<float, N>>& into, std::uint64_t vertices, const char* what,
+  bool read_vertices(Inflater& input, Array<std::array<float, N>>& into, std::uint64_t vertices, const char* what,
                      double limit = kMaxFloat) {
     if (!may_have(input, N * vertices)) return false;
     into.resize(vertices);

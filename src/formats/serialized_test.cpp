@@ -10,8 +10,8 @@
 namespace norrsken {
 namespace {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-using Points = std::vector<std::array<float, 3>>;
+using Triangles = Array<std::array<std::uint32_t, 3>>;
+using Points = Array<std::array<float, 3>>;
 
 template <typename T>
 std::string bytes_of(T value) {
@@ -96,13 +96,13 @@ TEST(Serialized, BothVersionsAndPrecisions) {
       const MeshData mesh = read(header(version) + deflated(inflated));
       EXPECT_EQ(mesh.positions, (Points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}));
       EXPECT_EQ(mesh.normals, (Points{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}));
-      EXPECT_EQ(mesh.texcoords, (std::vector<std::array<float, 2>>{{0, 0}, {0.5f, 0}, {0.5f, 0.25f}}));
+      EXPECT_EQ(mesh.texcoords, (Array<std::array<float, 2>>{{0, 0}, {0.5f, 0}, {0.5f, 0.25f}}));
       EXPECT_EQ(mesh.triangles, (Triangles{{2, 0, 1}}));
       ASSERT_EQ(mesh.attributes.size(), 1u);
       EXPECT_EQ(mesh.attributes[0].name, "vertex_color");
       EXPECT_EQ(mesh.attributes[0].channels, 3u);
       EXPECT_FALSE(mesh.attributes[0].per_face);
-      EXPECT_EQ(mesh.attributes[0].values, (std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 0.75f}));
+      EXPECT_EQ(mesh.attributes[0].values, (Array<float>{1, 0, 0, 0, 1, 0, 0, 0, 0.75f}));
       EXPECT_FALSE(mesh.face_normals);
     }
   }

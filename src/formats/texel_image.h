@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
+
+#include "base/memory.h"
 
 namespace norrsken {
 
@@ -15,12 +16,12 @@ struct TexelImage {
   /// Integers of the file: stored with sRGB's transfer function, unless it says that they are linear.
   bool is_encoded = false;
   /// width * height * channels: 8-bit integers, or if the file has others `values`, in which integers are in [0, 1].
-  std::vector<std::uint8_t> bytes;
-  std::vector<float> values;
+  Array<std::uint8_t> bytes;
+  Array<float> values;
 };
 
-/// Reads an image out of a file's `contents`; `path` is for its extension. Empty, or what is wrong. Images of more than
-/// `max_bytes` are refused, and those whose header promises more than the file holds are given up when it ends.
-std::string read_texels(const std::string& path, const std::string& contents, std::size_t max_bytes, TexelImage& image);
+/// Reads an image out of a file's `contents`; `path` is for its extension. Empty, or what is wrong: a header that promises
+/// more than the file can hold is. What the image and its decoder take is counted; may throw MemoryExceeded.
+std::string read_texels(const std::string& path, const std::string& contents, TexelImage& image);
 
 }  // namespace norrsken

@@ -49,7 +49,7 @@ std::optional<VolumeData> read(std::string_view bytes, MeshComplaints& complaint
     return refuse(fmt::format("{} of {} channel{} do not fit the {} bytes behind the header", grid, channels,
                               channels == 1 ? "" : "s", bytes.size()),
                   "4 bytes for each");
-  VolumeData volume{{x, y, z}, of_each, std::vector<float>(std::size_t{x} * y * z * of_each)};
+  VolumeData volume{{x, y, z}, of_each, Array<float>(std::size_t{x} * y * z * of_each)};
   std::memcpy(volume.values.data(), bytes.data(), volume.values.size() * sizeof(float));
   for (std::size_t i = 0; i < volume.values.size() && !complaints.gave_up(); ++i) {
     if (std::isfinite(volume.values[i])) continue;

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "base/memory.h"
 #include "norrsken/diagnostics.h"
 
 namespace norrsken {
@@ -16,7 +16,7 @@ namespace norrsken {
 struct VolumeData {
   std::array<std::uint32_t, 3> size{};  ///< values along x, y and z, 1 or more
   std::uint32_t channels = 0;           ///< 1 or more
-  std::vector<float> values;            ///< `channels` for each place, all finite
+  Array<float> values;                  ///< `channels` for each place, all finite
 };
 
 /// Version 3 with 32-bit floats, all there is. The bounding box in the header is skipped.

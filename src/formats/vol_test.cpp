@@ -50,7 +50,7 @@ TEST(Vol, ReadsSizesAndValues) {
   ASSERT_TRUE(volume.has_value()) << to_text(diagnostics);
   EXPECT_THAT(volume->size, ElementsAre(3, 2, 1));
   EXPECT_EQ(volume->channels, 1u);
-  EXPECT_EQ(volume->values, kSix);
+  EXPECT_EQ(volume->values, Array<float>(kSix.begin(), kSix.end()));
 }
 
 TEST(Vol, ReadsSeveralChannelsAndSkipsWhatIsBehind) {
@@ -59,7 +59,7 @@ TEST(Vol, ReadsSeveralChannelsAndSkipsWhatIsBehind) {
   ASSERT_TRUE(volume.has_value()) << to_text(diagnostics);
   EXPECT_THAT(volume->size, ElementsAre(1, 1, 2));
   EXPECT_EQ(volume->channels, 3u);
-  EXPECT_EQ(volume->values, kSix);
+  EXPECT_EQ(volume->values, Array<float>(kSix.begin(), kSix.end()));
 }
 
 TEST(Vol, RefusesOtherFiles) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "light/light_host.h"
 #include "shape/bsplinecurve.h"
@@ -76,7 +77,7 @@ bool completes_parallelogram(const Corner& apex, const Corner& left, const Corne
 }
 
 /// The shape's triangles by directed edge; of several with one edge, the last.
-std::map<Edge, std::uint32_t> edges_of(const std::vector<Corners>& triangles) {
+std::map<Edge, std::uint32_t> edges_of(std::span<const Corners> triangles) {
   std::map<Edge, std::uint32_t> edges;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) edges[{triangles[i][k], triangles[i][(k + 1) % 3]}] = i;
@@ -104,8 +105,8 @@ std::array<Texcoord, 3> texcoords_of(const SceneTables& tables, std::size_t tria
 
 /// A shape's triangles, and what the texture of their radiance needs.
 struct Mesh {
-  std::vector<Corners> triangles;
-  std::vector<std::array<Texcoord, 3>> texcoords;
+  Array<Corners> triangles;
+  Array<std::array<Texcoord, 3>> texcoords;
   std::uint32_t first_primitive, shape;
   TextureWord texture;
   bool smooth;  ///< lights are to know the vertices' normals
@@ -141,7 +142,10 @@ bool is_one_map(const Mesh& mesh, std::size_t first, std::size_t apex, std::size
 }
 
 std::vector<AreaLight> flat_lights(Builder& builder, const Mesh& mesh) {
-  const std::vector<Corners>& triangles = mesh.triangles;
+  std::span<const Corners> triangles = mesh.triangles;
+  // Three nodes of the tree of edges for each triangle, and the light's record with its list of primitives.
+  constexpr std::size_t kNodeBytes = sizeof(std::pair<const Edge, std::uint32_t>) + 6 * sizeof(void*);
+  const MemoryReservation working(triangles.size() * (3 * kNodeBytes + sizeof(AreaLight) + 4 * sizeof(void*)));
   const auto edges = edges_of(triangles);
   std::vector<bool> taken(triangles.size(), false);
   std::vector<AreaLight> lights;

@@ -50,7 +50,7 @@ void write_distribution(std::span<const double> weights, std::uint32_t guide_siz
 }
 
 /// The image's texels as 3 floats each; their offset.
-std::uint32_t float_texels(const StoredImage& image, std::vector<float>& texels) {
+std::uint32_t float_texels(const StoredImage& image, Array<float>& texels) {
   if (image.stride == 3) return image.texels;
   const auto offset = static_cast<std::uint32_t>(texels.size());
   const std::size_t count = std::size_t{image.width} * image.height;

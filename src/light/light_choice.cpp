@@ -56,8 +56,8 @@ void fill_alias_table(std::span<LightRecord> lights, std::span<const double> sha
   const auto count = static_cast<double>(lights.size());
 
   // Each light's probability in units of a column of the table, sorted into columns with room and columns too full.
-  std::vector<double> level(lights.size());
-  std::vector<std::uint32_t> small, large;
+  Array<double> level(lights.size());
+  Array<std::uint32_t> small, large;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
     level[i] = total > 0 ? shares[i] / total * count : 1;
     lights[i].prob = static_cast<float>(level[i] / count);

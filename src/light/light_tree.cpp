@@ -87,7 +87,7 @@ double cost(const Cluster& b) {
 
 class TreeBuilder {
  public:
-  TreeBuilder(SceneTables& tables, std::vector<Cluster> bounds, std::vector<std::uint32_t> lights)
+  TreeBuilder(SceneTables& tables, Array<Cluster> bounds, Array<std::uint32_t> lights)
       : tables_(tables), bounds_(std::move(bounds)), lights_(std::move(lights)) {
     order_.resize(lights_.size());
     std::iota(order_.begin(), order_.end(), 0u);
@@ -199,9 +199,9 @@ class TreeBuilder {
   }
 
   SceneTables& tables_;
-  std::vector<Cluster> bounds_;
-  std::vector<std::uint32_t> lights_;  ///< their indices in the tables
-  std::vector<std::uint32_t> order_;
+  Array<Cluster> bounds_;
+  Array<std::uint32_t> lights_;  ///< their indices in the tables
+  Array<std::uint32_t> order_;
   double radius2_ = 1, total_ = 1;
 };
 
@@ -210,8 +210,8 @@ class TreeBuilder {
 void build_light_tree(SceneTables& tables, std::span<const LightPower> lights) {
   tables.light_nodes.clear(), tables.lights_around.clear();
   tables.light_leaves.assign(lights.size(), kNone);
-  std::vector<Cluster> bounds;
-  std::vector<std::uint32_t> indices;
+  Array<Cluster> bounds;
+  Array<std::uint32_t> indices;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
     if (lights[i].per_cross_section > 0) tables.lights_around.push_back(i);
     if (!(lights[i].own > 0)) continue;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "render/checkpoint.h"
 #include "tables/film_memory.h"
@@ -28,15 +29,26 @@ Film make_film(const FilmForm& form) {
   return film;
 }
 
+std::uint64_t pixels_of(const FilmForm& form) {
+  return static_cast<std::uint64_t>(std::int64_t{form.settings.width} * form.settings.height);
+}
+
+std::uint64_t film_bytes(const FilmForm& form) {
+  return pixels_of(form) * film_bytes_per_pixel(form.settings, form.sampler, form.layers, form.from_lights);
+}
+
+/// The sum, what is added to it, and the image.
+std::uint64_t merging_bytes(const FilmForm& form) {
+  return 2 * film_bytes(form) + pixels_of(form) * image_bytes_per_pixel(form.settings, form.layers);
+}
+
 /// Why a file cannot be a part of anything, or nothing.
 std::string complaint_about(const Part& part) {
   if (part.reader->state() == SectionReader::State::missing) return "there is no file " + part.name();
   if (part.reader->state() != SectionReader::State::readable) return part.name() + " " + part.reader->complaint();
   const StoredRender& stored = part.stored();
-  // Not before the bytes are there: the sums of a film take at least half of what the film takes.
-  const FilmForm& form = stored.form;
-  const auto pixels = static_cast<std::uint64_t>(std::int64_t{form.settings.width} * form.settings.height);
-  if (pixels * film_bytes_per_pixel(form.settings, form.layers, form.from_lights) / 2 > part.reader->file_bytes()) {
+  // Not before the bytes are there: the sums of a film take what the film takes.
+  if (film_bytes(stored.form) > part.reader->file_bytes()) {
     return part.name() + " says that its film is larger than the file";
   }
   const auto all = [](const TileProgress& progress, SampleRange range) {
@@ -63,7 +75,8 @@ std::string complaint_about(const Part& first, const Part& second) {
 
 }  // namespace
 
-IoStatus merge_renders(const std::vector<std::string>& files, bool layers, MergedRender& result) {
+IoStatus merge_renders(const std::vector<std::string>& files, bool layers, MergedRender& result,
+                       std::shared_ptr<MemoryBudget> memory) {
   if (files.empty()) return {"there is nothing to merge"};
   std::vector<Part> parts;
   for (const std::string& file : files) {
@@ -88,6 +101,14 @@ IoStatus merge_renders(const std::vector<std::string>& files, bool layers, Merge
     feature_samples += stored.feature_samples.count();
   }
 
+  const FilmForm& form = parts.front().stored().form;
+  MemoryReservation films;
+  try {
+    films = MemoryReservation(merging_bytes(form), memory ? std::move(memory) : MemoryBudget::of_machine());
+  } catch (const MemoryExceeded& e) {
+    return {fmt::format("films of {} x {} pixels do not fit into memory: {}", form.settings.width, form.settings.height,
+                        e.what())};
+  }
   Film film = make_film(parts.front().stored().form), part_of_film = make_film(parts.front().stored().form);
   for (const Part& part : parts) {
     if (!part.reader->read_film(part_of_film)) return {part.name() + " " + part.reader->complaint()};

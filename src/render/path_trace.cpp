@@ -8,6 +8,7 @@
 
 #include "compile/compile.h"
 #include "isa/entry.h"
+#include "render/frame_memory.h"
 #include "render/scene_view.h"
 #include "render/wave_arena.h"
 
@@ -160,8 +161,9 @@ std::optional<PathTrace> trace_path(const Scene& scene, const RenderOptions& opt
   }
   if (diagnostics.has_errors()) return std::nullopt;
 
-  const Accel accel(tables, accel_kind);
-  SceneView view = make_scene_view(tables, accel.view());
+  const auto accel = build_accel(scene.tables(), accel_kind, diagnostics);
+  if (!accel) return std::nullopt;
+  SceneView view = make_scene_view(tables, accel->view());
   view.sampler.seed += options.seed;
   WaveArena arena(kMaxLanes);
   WaveMemory& memory = arena.memory();

@@ -12,6 +12,7 @@
 #include "isa/entry.h"
 #include "render/checkpoint.h"
 #include "render/crew.h"
+#include "render/frame_memory.h"
 #include "render/scene_view.h"
 
 namespace norrsken {
@@ -84,12 +85,14 @@ Work make_work(const SceneView& view, const Film& film, const SampleSchedule& sc
 
 class RenderSession final : public Render {
  public:
-  RenderSession(Scene scene, const RenderOptions& options, const KernelEntry& kernels, AccelKind accel_kind)
+  RenderSession(Scene scene, const RenderOptions& options, const KernelEntry& kernels, MemoryReservation frame,
+                std::unique_ptr<const Accel> accel)
       : scene_(std::move(scene)),
         tables_(scene_.tables().tables),
         kernels_(kernels),
-        accel_(tables_, accel_kind),
-        view_(make_scene_view(tables_, accel_.view())),
+        frame_(std::move(frame)),
+        accel_(std::move(accel)),
+        view_(make_scene_view(tables_, accel_->view())),
         threads_(crew_size(options.threads)),
         film_(film_settings(tables_), view_.sampler.kind, layers(scene_, options)),
         schedule_(make_schedule(sample_range(tables_, options), options)),
@@ -215,7 +218,8 @@ class RenderSession final : public Render {
   Scene scene_;
   const SceneTables& tables_;
   const KernelEntry& kernels_;
-  Accel accel_;
+  MemoryReservation frame_;  ///< of film, image and threads
+  std::unique_ptr<const Accel> accel_;
   SceneView view_;
   int threads_;
   Film film_;
@@ -267,7 +271,11 @@ std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& 
                       fmt::format("up to {}", kMostSamples));
   }
   if (diagnostics.has_errors()) return nullptr;
-  auto session = std::make_unique<RenderSession>(scene, options, *kernels, accel);
+  auto frame = reserve_frame(scene.tables(), film_settings(scene.tables().tables), layers(scene, options),
+                             crew_size(options.threads), diagnostics);
+  auto built = frame ? build_accel(scene.tables(), accel, diagnostics) : nullptr;
+  if (!built) return nullptr;
+  auto session = std::make_unique<RenderSession>(scene, options, *kernels, std::move(*frame), std::move(built));
   if (!options.checkpoint.empty()) session->resume(diagnostics);
   if (diagnostics.has_errors()) return nullptr;
   return session;

@@ -21,6 +21,9 @@ class WaveArena {
   explicit WaveArena(std::uint32_t slots = kWaveSlots, bool from_lights = false);
   WaveMemory& memory() { return memory_; }
 
+  /// What one takes.
+  static std::uint64_t bytes(std::uint32_t slots, bool from_lights);
+
  private:
   AlignedVector<float> block_;
   WaveMemory memory_;

@@ -50,7 +50,7 @@ Integrals integrate(const std::vector<Node>& nodes, double end) {
 
 }  // namespace
 
-FilterRecord tabulate_filter(const FilterFunction& filter, std::vector<float>& table) {
+FilterRecord tabulate_filter(const FilterFunction& filter, Array<float>& table) {
   const std::vector<Node> nodes = make_nodes(filter);
   const double total = integrate(nodes, filter.radius).absolute;
   std::vector<double> cdf(nodes.size());

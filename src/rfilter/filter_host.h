@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <vector>
 
 #include "tables/scene_tables.h"
 
@@ -19,6 +18,6 @@ struct FilterFunction {
 };
 
 /// Fills `table`; see src/rfilter/filter.h.
-FilterRecord tabulate_filter(const FilterFunction& filter, std::vector<float>& table);
+FilterRecord tabulate_filter(const FilterFunction& filter, Array<float>& table);
 
 }  // namespace norrsken

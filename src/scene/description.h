@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/memory.h"
 #include "norrsken/diagnostics.h"
 
 namespace norrsken {
@@ -66,6 +67,7 @@ struct Description {
   /// Folders in which file names are looked up: beside the naming file is tried first (see `resolve_file`), then these.
   std::vector<std::string> search_paths;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< those in use: `$name` and its final value
+  MemoryReservation memory = {};                                ///< of all nodes
 };
 
 }  // namespace norrsken

@@ -34,6 +34,12 @@ std::optional<std::string> FileSystem::read(const std::string& path, std::string
   return read_regular_file(path, error);
 }
 
+std::uint64_t FileSystem::size(const std::string& path) const {
+  if (is_builtin(path)) return 0;  // part of the program
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) ? static_cast<std::uint64_t>(status.st_size) : 0;
+}
+
 bool FileSystem::exists(const std::string& path) const {
   if (!is_builtin(path)) {
     std::error_code ignored;
@@ -56,6 +62,18 @@ bool FileSystem::is_folder(const std::string& path) const {
   const auto inside = [&key](const auto& file) { return file.first.starts_with(key); };
   const auto files = builtin_files();
   return std::any_of(files.begin(), files.end(), inside);
+}
+
+std::optional<FileContents> read_counted(const FileSystem& files, const std::string& path, std::string& error) {
+  // Larger ones are refused by what they are.
+  FileContents contents{MemoryReservation(std::min<std::uint64_t>(files.size(path), kMaxFileBytes)), {}};
+  auto bytes = files.read(path, error);
+  if (!bytes) return std::nullopt;
+  contents.bytes = std::move(*bytes);
+  // Files of /proc have more than they say.
+  if (contents.bytes.size() > contents.memory.bytes())
+    contents.memory.grow(contents.bytes.size() - contents.memory.bytes());
+  return contents;
 }
 
 std::string folder_of(const std::string& path) {

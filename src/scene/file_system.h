@@ -1,12 +1,15 @@
 // Where scene files and what they name are read from: the disk, or the scenes built into the program.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "base/memory.h"
 
 namespace norrsken {
 
@@ -17,10 +20,21 @@ class FileSystem {
   /// The whole file, or empty with `error` set ("no such file", "is a folder", "is not a regular file", ...).
   /// Devices, pipes and folders are refused, never waited for; so are files above 4 GiB.
   virtual std::optional<std::string> read(const std::string& path, std::string& error) const;
+  /// Bytes of the file; 0 if there is none, or if it does not say.
+  virtual std::uint64_t size(const std::string& path) const;
   /// Whether there is a file or a folder of that name.
   virtual bool exists(const std::string& path) const;
   virtual bool is_folder(const std::string& path) const;
 };
+
+/// A file, and its part of the memory budget.
+struct FileContents {
+  MemoryReservation memory;
+  std::string bytes;
+};
+
+/// `files.read(path, error)` with the bytes reserved before they are read. May throw MemoryExceeded.
+std::optional<FileContents> read_counted(const FileSystem& files, const std::string& path, std::string& error);
 
 /// The folder part of a path with its last slash: "scenes/", "builtin:room/", "builtin:"; empty for the current one.
 std::string folder_of(const std::string& path);

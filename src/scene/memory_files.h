@@ -22,6 +22,11 @@ class MemoryFiles : public FileSystem {
     return std::nullopt;
   }
 
+  std::uint64_t size(const std::string& path) const override {
+    const auto found = files_.find(normal_path(path));
+    return found != files_.end() ? found->second.size() : 0;
+  }
+
   bool exists(const std::string& path) const override { return files_.contains(normal_path(path)) || is_folder(path); }
 
   bool is_folder(const std::string& path) const override {

@@ -19,7 +19,7 @@ using Point = std::array<float, 4>;
 
 glm::dvec3 position(const Point& p) { return {p[0], p[1], p[2]}; }
 
-bool move_to_world(std::vector<Point>& points, const glm::dmat4& to_world, Parameters& p) {
+bool move_to_world(Array<Point>& points, const glm::dmat4& to_world, Parameters& p) {
   for (Point& point : points) {
     const glm::dvec3 moved = to_world * glm::dvec4(position(point), 1);
     for (int axis = 0; axis < 3; ++axis) {
@@ -58,8 +58,8 @@ std::optional<ShapeGeometry> compile_curves(Parameters& p, Builder& builder, Ana
   const glm::dmat4 to_world = p.transform("to_world");
   if (path.empty()) return std::nullopt;
   std::optional<CurveData> curves;
-  if (const std::optional<std::string> bytes = read_shape_file(path, p, builder))
-    curves = read_curves(*bytes, basis, path, builder.diagnostics());
+  if (const std::optional<FileContents> contents = read_shape_file(path, p, builder))
+    curves = read_curves(contents->bytes, basis, path, builder.diagnostics());
   if (!curves || !move_to_world(curves->points, to_world, p)) return std::nullopt;
 
   // Already in the world: Embree and the kernels read the same numbers.

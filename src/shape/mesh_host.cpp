@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
+#include <span>
 
 #include "math/special.h"
 #include "shape/shape_file_host.h"
@@ -75,7 +76,7 @@ bool move_to_world(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
 }
 
 /// Leaves the triangles that `keep` names, and their attributes.
-void keep_triangles(MeshData& mesh, const std::vector<std::uint32_t>& keep) {
+void keep_triangles(MeshData& mesh, std::span<const std::uint32_t> keep) {
   for (std::size_t i = 0; i < keep.size(); ++i) mesh.triangles[i] = mesh.triangles[keep[i]];
   mesh.triangles.resize(keep.size());
   for (MeshAttribute& attribute : mesh.attributes) {
@@ -95,7 +96,7 @@ bool drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
     return std::isnormal(static_cast<float>(glm::length(area_normal(mesh, t)) / 2));
   };
   if (!std::all_of(mesh.triangles.begin(), mesh.triangles.end(), has_area)) {
-    std::vector<std::uint32_t> keep;
+    Array<std::uint32_t> keep;
     for (std::size_t i = 0; i < before; ++i) {
       if (has_area(mesh.triangles[i])) keep.push_back(static_cast<std::uint32_t>(i));
     }
@@ -118,8 +119,8 @@ bool drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
 
 /// The file's bytes are let go of when they have been read.
 std::optional<MeshData> read_file(const std::string& path, Parameters& p, Builder& builder, const ReadMesh& read) {
-  const std::optional<std::string> bytes = read_shape_file(path, p, builder);
-  return bytes ? read(*bytes, path, builder.diagnostics()) : std::nullopt;
+  const std::optional<FileContents> contents = read_shape_file(path, p, builder);
+  return contents ? read(contents->bytes, path, builder.diagnostics()) : std::nullopt;
 }
 
 }  // namespace

@@ -33,13 +33,13 @@ constexpr std::size_t kMaxNumbers = std::size_t{1} << 31;
 
 std::optional<VolumeData> read_grid(const std::string& path, Parameters& p, Builder& builder) {
   std::string problem;
-  const std::optional<std::string> bytes = builder.files().read(path, problem);
-  if (!bytes) {
+  const std::optional<FileContents> contents = read_counted(builder.files(), path, problem);
+  if (!contents) {
     p.error("filename", fmt::format("cannot read {}: {}", quoted(path, 200), problem), "a readable .vol file");
     return std::nullopt;
   }
   builder.diagnostics().named_at(path, p.where("filename"));
-  return read_vol(*bytes, path, builder.diagnostics());
+  return read_vol(contents->bytes, path, builder.diagnostics());
 }
 
 /// The shape's table without its head; voxels behind the values.
@@ -55,7 +55,7 @@ class Voxels {
       }
     }
   }
-  const std::vector<std::uint32_t>& numbers() const { return numbers_; }
+  const Array<std::uint32_t>& numbers() const { return numbers_; }
   /// Of all of them, in the cube.
   glm::dvec3 lower() const { return lower_; }
   glm::dvec3 upper() const { return upper_; }
@@ -78,13 +78,13 @@ class Voxels {
   }
 
   const VolumeData& volume_;
-  std::vector<std::uint32_t> numbers_;
+  Array<std::uint32_t> numbers_;
   glm::dvec3 lower_{1}, upper_{0};
 };
 
 /// The values times a power of two that brings the largest close to 1, which changes neither surface nor normals: sums
 /// and products of whatever floats a file has are floats then.
-void append_values(const std::vector<float>& values, std::vector<float>& table) {
+void append_values(const Array<float>& values, Array<float>& table) {
   float largest = 0;
   for (const float value : values) largest = std::max(largest, std::abs(value));
   const int exponent = std::ilogb(largest);

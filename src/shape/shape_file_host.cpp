@@ -6,16 +6,16 @@
 
 namespace norrsken {
 
-std::optional<std::string> read_shape_file(const std::string& path, Parameters& p, Builder& builder) {
+std::optional<FileContents> read_shape_file(const std::string& path, Parameters& p, Builder& builder) {
   std::string problem;
-  std::optional<std::string> bytes = builder.files().read(path, problem);
-  if (!bytes) {
+  std::optional<FileContents> contents = read_counted(builder.files(), path, problem);
+  if (!contents) {
     p.error("filename", fmt::format("cannot read {}: {}", quoted(path, 200), problem),
             fmt::format("a readable {} file", p.node().plugin));
     return std::nullopt;
   }
   builder.diagnostics().named_at(path, p.where("filename"));
-  return bytes;
+  return contents;
 }
 
 }  // namespace norrsken

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "compile/builder.h"
 
 namespace norrsken {
 
 /// The bytes of the file at `path`, which the parameter `filename` gave; a complaint if it cannot be read.
-std::optional<std::string> read_shape_file(const std::string& path, Parameters& p, Builder& builder);
+std::optional<FileContents> read_shape_file(const std::string& path, Parameters& p, Builder& builder);
 
 }  // namespace norrsken

@@ -1,4 +1,4 @@
-// How much memory a film takes.
+// How much memory a film and its image take.
 #pragma once
 
 #include <bit>
@@ -17,12 +17,28 @@ inline std::uint32_t feature_mask(const FilmSettings& settings, const SceneLayer
   return mask;
 }
 
-/// Bytes per pixel, with the sampler that needs more: a count, and two doubles for each sum.
-inline std::uint64_t film_bytes_per_pixel(const FilmSettings& settings, const SceneLayers& layers, bool from_lights) {
-  constexpr std::uint64_t kImages = 3 * kReplicates;
+/// Sums that a film has of each pixel's samples: with their squares, or by replicate.
+constexpr std::uint32_t radiance_planes(SamplerKind sampler) {
+  return sampler == SamplerKind::independent ? 6 : 3 * kReplicates;
+}
+
+/// Bytes per pixel: a count, and two doubles for each sum.
+inline std::uint64_t film_bytes_per_pixel(const FilmSettings& settings, SamplerKind sampler, const SceneLayers& layers,
+                                          bool from_lights) {
   const auto features = static_cast<std::uint64_t>(std::popcount(feature_mask(settings, layers)));
-  const std::uint64_t sums = kImages + features + (layers.moments.empty() ? 0 : 3) + (from_lights ? kImages : 0);
+  const std::uint64_t sums =
+      radiance_planes(sampler) + features + (layers.moments.empty() ? 0 : 3) + (from_lights ? 3 * kReplicates : 0);
   return sizeof(std::uint32_t) + 2 * sizeof(double) * sums;
+}
+
+/// Bytes per pixel of the image that a film becomes, with every layer that may be asked for, and of writing it.
+inline std::uint64_t image_bytes_per_pixel(const FilmSettings& settings, const SceneLayers& layers) {
+  // R, G, B, their variances and errors, and the number of samples.
+  const std::uint64_t channels = 10 + (settings.has_alpha() ? 1 : 0) + layers.features.size() +
+                                 4 * layers.image_copies.size() + 6 * layers.moments.size();
+  // Three other floats or four halves for an EXR file, three bytes for others.
+  constexpr std::uint64_t kWriting = 3 * sizeof(float) + 3;
+  return channels * sizeof(float) + kWriting;
 }
 
 }  // namespace norrsken

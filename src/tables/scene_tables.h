@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <vector>
+
+#include "base/memory.h"
 
 namespace norrsken {
 
@@ -229,34 +230,34 @@ struct IntegratorSettings {
 
 /// The arrays. Triangle i has corners positions[3 * triangle_vertices[3 * i + k] ...].
 struct SceneTables {
-  std::vector<float> positions;                  ///< 3 per vertex, world space
-  std::vector<float> normals;                    ///< 3 per vertex or empty if no shape is smooth
-  std::vector<float> texcoords;                  ///< 2 per vertex or empty
-  std::vector<std::uint32_t> triangle_vertices;  ///< 3 per triangle
-  std::vector<SurfaceRecord> surfaces;           ///< triangles, then spheres, then analytic primitives
-  std::vector<ShapeRecord> shapes;
-  std::vector<AnalyticRecord> analytics;
-  std::vector<InstanceRecord> instances;
+  Array<float> positions;                  ///< 3 per vertex, world space
+  Array<float> normals;                    ///< 3 per vertex or empty if no shape is smooth
+  Array<float> texcoords;                  ///< 2 per vertex or empty
+  Array<std::uint32_t> triangle_vertices;  ///< 3 per triangle
+  Array<SurfaceRecord> surfaces;           ///< triangles, then spheres, then analytic primitives
+  Array<ShapeRecord> shapes;
+  Array<AnalyticRecord> analytics;
+  Array<InstanceRecord> instances;
   std::uint32_t group_count = 0;
   std::uint32_t first_analytic = kNone;  ///< primitive; kNone if there is none
-  std::vector<float> parameters;         ///< of BSDFs, textures and lights, each at its own offset
-  std::vector<float> texels;             ///< of bitmaps and tables, each at its own offset
+  Array<float> parameters;               ///< of BSDFs, textures and lights, each at its own offset
+  Array<float> texels;                   ///< of bitmaps and tables, each at its own offset
   /// By primitive of the shapes that are lights, an index into `lights`.
-  std::vector<std::uint32_t> primitive_lights;
-  std::vector<LightRecord> lights;
-  std::vector<LightNode> light_nodes;        ///< empty where lights are chosen by power alone
-  std::vector<std::uint32_t> light_leaves;   ///< by light, its leaf among the nodes, or kNone
-  std::vector<std::uint32_t> lights_around;  ///< chosen beside the tree
-  std::uint32_t bsdf_kinds = 0;              ///< bit k: a material of BsdfKind k was made; it may be behind another one
-  std::uint32_t material_choices = 0;        ///< the most that stand one behind the other before a model
-  std::uint32_t texture_kinds = 0;           ///< bit k: TextureKind k occurs
-  bool needs_uv = false;                     ///< some model looks at texture coordinates or tangents
-  std::uint32_t environment = kNone;         ///< index of the light that rays to nowhere see
-  float center[3] = {};                      ///< of a sphere around all surfaces
+  Array<std::uint32_t> primitive_lights;
+  Array<LightRecord> lights;
+  Array<LightNode> light_nodes;        ///< empty where lights are chosen by power alone
+  Array<std::uint32_t> light_leaves;   ///< by light, its leaf among the nodes, or kNone
+  Array<std::uint32_t> lights_around;  ///< chosen beside the tree
+  std::uint32_t bsdf_kinds = 0;        ///< bit k: a material of BsdfKind k was made; it may be behind another one
+  std::uint32_t material_choices = 0;  ///< the most that stand one behind the other before a model
+  std::uint32_t texture_kinds = 0;     ///< bit k: TextureKind k occurs
+  bool needs_uv = false;               ///< some model looks at texture coordinates or tangents
+  std::uint32_t environment = kNone;   ///< index of the light that rays to nowhere see
+  float center[3] = {};                ///< of a sphere around all surfaces
   float radius = 0;
   CameraRecord camera{};
   FilmSettings film;
-  std::vector<float> filter;
+  Array<float> filter;
   SamplerSettings sampler;
   IntegratorSettings integrator;
 
