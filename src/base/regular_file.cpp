@@ -11,7 +11,6 @@
 namespace norrsken {
 namespace {
 
-constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
 constexpr const char* kTooLarge = "is larger than 4 GiB";
 constexpr const char* kNotRegular = "is not a regular file";
 

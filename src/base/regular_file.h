@@ -39,7 +39,10 @@ struct RegularFile {
 /// Opens a file for reading. Devices, pipes, sockets and folders are refused, never waited for.
 RegularFile open_regular_file(const std::string& path);
 
-/// The whole file, or empty with `error` set. Files above 4 GiB are refused.
+/// Of what is read in one piece.
+inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
+
+/// The whole file, or empty with `error` set. Files above kMaxFileBytes are refused.
 std::optional<std::string> read_regular_file(const std::string& path, std::string& error);
 
 }  // namespace norrsken

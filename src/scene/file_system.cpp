@@ -1,5 +1,7 @@
 #include "scene/file_system.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
