@@ -1,12 +1,19 @@
-// What sampling relies on: the Sobol' points are nets, the independent ones are independent, and both are what they
-// are whatever the register width (src/isa/parity_test.cpp has that).
+// What sampling relies on: the Sobol' points are nets, and the numbers of every plugin of plugins.def are uniform and
+// independent of each other. (That they do not depend on the register's width is in src/isa/parity_test.cpp.)
 #include "sampler/sampler.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <ostream>
 #include <set>
+#include <string>
 #include <vector>
+
+#include "compile/compile_testing.h"
+#include "tests/statistics/statistical_test.h"
 
 namespace norrsken::isa_host {
 namespace {
@@ -55,60 +62,107 @@ TEST(Sobol, RepetitionsRefineTheNet) {
   EXPECT_EQ(cells.size(), 64u);
 }
 
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  double ma = 0, mb = 0, saa = 0, sbb = 0, sab = 0;
-  const double n = static_cast<double>(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) ma += a[i] / n, mb += b[i] / n;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    saa += (a[i] - ma) * (a[i] - ma), sbb += (b[i] - mb) * (b[i] - mb), sab += (a[i] - ma) * (b[i] - mb);
+// --- every plugin --------------------------------------------------------------------------------------------------
+
+struct Plugin {
+  const char* name;
+};
+void PrintTo(const Plugin& p, std::ostream* out) { *out << p.name; }
+constexpr Plugin kPlugins[] = {
+#define NORRSKEN_SAMPLER(name) {#name},
+#include "sampler/plugins.def"
+#undef NORRSKEN_SAMPLER
+};
+
+class EverySampler : public ::testing::TestWithParam<Plugin> {
+ protected:
+  void SetUp() override {
+    const auto compiled =
+        norrsken::testing::compile_sampler("<sampler type=\"" + std::string(GetParam().name) + "\"/>");
+    ASSERT_EQ(compiled.messages(), std::vector<std::string>());
+    kind_ = compiled.tables().sampler.kind;
   }
-  return sab / std::sqrt(saa * sbb);
-}
+  std::string caption(const std::string& what) const { return std::string(GetParam().name) + ", " + what; }
 
-class EverySampler : public testing::TestWithParam<SamplerKind> {};
+  SamplerKind kind_{};
+};
+INSTANTIATE_TEST_SUITE_P(Plugins, EverySampler, ::testing::ValuesIn(kPlugins),
+                         [](const auto& p) { return p.param.name; });
 
-TEST_P(EverySampler, UniformByChiSquare) {
-  constexpr int kCells = 32, kSamples = 1'000'000;
-  for (const std::uint32_t dimension : {0u, 13u, 100u}) {
-    std::vector<double> counts(kCells * kCells);
-    for (int i = 0; i < kSamples; ++i) {
-      // One sample of each of a million pixels: those are independent for both kinds.
-      const Vec2f u = sample(GetParam(), static_cast<std::uint32_t>(i), 3, dimension);
-      for (const float v : {u.x.v, u.y.v}) {
-        ASSERT_GE(v, 0.0f);
-        ASSERT_LT(v, 1.0f);
+constexpr std::uint32_t kPixels = 1'000'000;
+constexpr statistics::Rectangle kUnitSquare{{0, 0}, {1, 1}};
+
+/// One sample of each of a million pixels: those are independent for all kinds.
+TEST_P(EverySampler, IsUniform) {
+  statistics::StatisticalTest test;
+  for (const std::uint32_t dimension : {0u, 13u, 100u, 801u}) {
+    statistics::EvenCells square(kUnitSquare, 32, 32), line(kUnitSquare, 1024, 1);
+    for (std::uint32_t i = 0; i < kPixels; ++i) {
+      const Vec2f u = sample(kind_, i, 3, dimension);
+      const float v = Sampler{kind_}.sample_1d(make_sample_key(kind_, kSeed, UInt(i), 3), dimension).v;
+      for (const float x : {u.x.v, u.y.v, v}) {
+        ASSERT_GE(x, 0.0f);
+        ASSERT_LT(x, 1.0f);
       }
-      ++counts[static_cast<std::size_t>(u.x.v * kCells) * kCells + static_cast<std::size_t>(u.y.v * kCells)];
+      square.add({double{u.x.v}, double{u.y.v}});
+      line.add({double{v}, 0.5});
     }
-    const double expected = static_cast<double>(kSamples) / (kCells * kCells), cells = kCells * kCells;
-    double chi2 = 0;
-    for (const double c : counts) chi2 += (c - expected) * (c - expected) / expected;
-    // Wilson and Hilferty's normal approximation; 4 sigma on fixed seeds.
-    const double z = (std::cbrt(chi2 / (cells - 1)) - (1 - 2 / (9 * (cells - 1)))) / std::sqrt(2 / (9 * (cells - 1)));
-    EXPECT_LT(std::abs(z), 4.0) << "dimension " << dimension << ", chi2 " << chi2;
+    const std::string where = caption("dimension " + std::to_string(dimension));
+    EXPECT_TRUE(test.chi_square(square.cells(), {"first number", "second number"}, where));
+    EXPECT_TRUE(test.chi_square(line.cells(), {"number", ""}, where));
   }
 }
 
-/// Neighbouring dimensions, samples, pixels and seeds have nothing to do with each other.
-TEST_P(EverySampler, Uncorrelated) {
-  constexpr std::uint32_t kSamples = 200'000;
-  std::vector<double> x, y, other_dimension, other_pixel, other_replicate;
-  for (std::uint32_t i = 0; i < kSamples; ++i) {
-    const Vec2f u = sample(GetParam(), i, 0, 9);
-    x.push_back(static_cast<double>(u.x.v)), y.push_back(static_cast<double>(u.y.v));
-    other_dimension.push_back(static_cast<double>(sample(GetParam(), i, 0, 12).x.v));
-    other_pixel.push_back(static_cast<double>(sample(GetParam(), i + 1, 0, 9).x.v));
-    other_replicate.push_back(static_cast<double>(sample(GetParam(), i, 1, 9).x.v));
+/// Neighbouring dimensions, samples, pixels, replicates and seeds have nothing to do with each other.
+TEST_P(EverySampler, NumbersAreIndependent) {
+  statistics::StatisticalTest test;
+  const auto number = [&](std::uint32_t pixel, std::uint32_t s, std::uint32_t dimension) {
+    return double{sample(kind_, pixel, s, dimension).x.v};
+  };
+  const auto one = [&](std::uint32_t pixel, std::uint32_t dimension) {
+    return double{Sampler{kind_}.sample_1d(make_sample_key(kind_, kSeed, UInt(pixel), 0), dimension).v};
+  };
+  const auto of_seed = [&](std::uint64_t seed, std::uint32_t pixel) {
+    return double{Sampler{kind_}.sample_2d(make_sample_key(kind_, seed, UInt(pixel), 0), 9).x.v};
+  };
+  using Number = std::function<double(std::uint32_t pixel)>;
+  const Number first = [&](std::uint32_t i) { return number(i, 0, 9); };
+  const struct {
+    const char* what;
+    Number other;
+  } pairs[] = {
+      {"the second number of a pair and the next pair's first", [&](std::uint32_t i) { return number(i, 0, 11); }},
+      {"another dimension", [&](std::uint32_t i) { return number(i, 0, 42); }},
+      {"a number for itself, one before", [&](std::uint32_t i) { return one(i, 8); }},
+      {"the pixel to the right", [&](std::uint32_t i) { return number(i + 1, 0, 9); }},
+      {"the pixel below", [&](std::uint32_t i) { return number(i + 1024, 0, 9); }},
+      {"another replicate", [&](std::uint32_t i) { return number(i, 1, 9); }},
+      {"another seed", [&](std::uint32_t i) { return of_seed(kSeed + 1, i); }},
+      {"the replicate's next sample", [&](std::uint32_t i) { return number(i, kReplicates, 9); }},
+  };
+  for (const auto& [what, other] : pairs) {
+    // Points of one net are meant to avoid each other.
+    const bool is_last = &other == &pairs[std::size(pairs) - 1].other;
+    if (is_last && kind_ == SamplerKind::sobol) {
+      test.skip(1);
+      continue;
+    }
+    statistics::EvenCells cells(kUnitSquare, 32, 32);
+    for (std::uint32_t i = 0; i < kPixels; ++i) cells.add({first(i), other(i)});
+    EXPECT_TRUE(test.chi_square(cells.cells(), {"number", "the other"}, caption(what)));
   }
-  const double limit = 4.0 / std::sqrt(static_cast<double>(kSamples));
-  EXPECT_LT(std::abs(correlation(x, y)), limit);
-  EXPECT_LT(std::abs(correlation(x, other_dimension)), limit);
-  EXPECT_LT(std::abs(correlation(x, other_pixel)), limit);
-  EXPECT_LT(std::abs(correlation(x, other_replicate)), limit);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, EverySampler, testing::Values(SamplerKind::independent, SamplerKind::sobol),
-                         [](const auto& p) { return p.param == SamplerKind::sobol ? "sobol" : "independent"; });
+/// Of all samples of one pixel.
+TEST_P(EverySampler, APixelIsCoveredUniformly) {
+  statistics::StatisticalTest test;
+  statistics::EvenCells cells(kUnitSquare, 32, 32);
+  for (std::uint32_t i = 0; i < kPixels; ++i) {
+    const Vec2f u = sample(kind_, 77, i, 9);
+    cells.add({double{u.x.v}, double{u.y.v}});
+  }
+  EXPECT_TRUE(test.chi_square(cells.cells(), {"first number", "second number"}, caption("one pixel")));
+}
 
 }  // namespace
 }  // namespace norrsken::isa_host
