@@ -6,6 +6,7 @@
 #include <new>
 #include <span>
 #include <stdexcept>
+#include <string>
 
 #include "accel/build.h"
 #include "accel/embree_elements.h"
@@ -13,6 +14,9 @@
 
 namespace norrsken {
 namespace {
+
+/// What its threads cannot allocate, Embree calls an unknown error.
+constexpr const char* kPerhapsStarved = ": the system may be out of memory or of threads";
 
 /// Consecutive primitives of one class and one group; a shape made of elements has a run of its own.
 struct Run {
@@ -93,7 +97,7 @@ EmbreeScene::EmbreeScene() {
   RTCDevice device = rtcNewDevice(nullptr);
   if (device == nullptr) {
     if (rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    throw std::runtime_error("Embree cannot create a device: the system may be out of memory or of threads");
+    throw std::runtime_error(std::string("Embree cannot create a device") + kPerhapsStarved);
   }
   device_ = device;
   rtcSetDeviceMemoryMonitorFunction(
@@ -156,7 +160,7 @@ void EmbreeScene::build(const SceneTables& scene, std::span<const SphereRecord> 
   const RTCError error = rtcGetDeviceError(device);
   memory_.throw_if_exceeded();
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build the scene");
+  if (error != RTC_ERROR_NONE) throw std::runtime_error(std::string("Embree cannot build the scene") + kPerhapsStarved);
 }
 
 EmbreeScene::~EmbreeScene() {
