@@ -25,8 +25,12 @@ def tests_there():
             elif path.name == "CMakeLists.txt":
                 text = path.read_text(encoding="utf-8")
                 names.update(re.findall(r"add_test\(\s*NAME\s+(\S+)", text))
-                names.update("Mutant." + name for name in re.findall(r"norrsken_mutant\(\s*(\w+)", text))
                 names.update("Fuzz." + name for name in re.findall(r"norrsken_fuzz_target\(\s*(\w+)", text))
+                for listed in re.findall(r"foreach\(name ([\w\s]+)\)\s*norrsken_fuzz_target", text):
+                    names.update("Fuzz." + name for name in listed.split())
+            elif path.suffix == ".cmake":
+                text = path.read_text(encoding="utf-8")
+                names.update("Mutants." + name for name in re.findall(r"norrsken_mutant\(\s*(\w+)", text))
     return names
 
 
