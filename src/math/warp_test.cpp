@@ -3,90 +3,99 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
-#include <vector>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "math/frame.h"
+#include "tests/statistics/statistical_test.h"
 
 namespace norrsken::isa_host {
 namespace {
 
-/// Points of a golden-ratio lattice: even over the square without rows that a warp would map onto rings.
-constexpr int kPoints = 1 << 20;
+using statistics::Direction;
+using statistics::Point;
+using statistics::Random;
+using statistics::StatisticalTest;
 
-/// Share of the square that lands in each of `cells` cells.
-std::vector<double> histogram(int cells, const std::function<int(Vec2f)>& cell) {
-  std::vector<double> shares(static_cast<std::size_t>(cells));
-  for (int i = 0; i < kPoints; ++i) {
-    const double x = (i + 0.5) / kPoints, y = std::fmod(i * 0.6180339887498949, 1.0);
-    const int c = cell({static_cast<float>(x), static_cast<float>(y)});
-    if (c >= 0 && c < cells) shares[static_cast<std::size_t>(c)] += 1.0 / kPoints;
-  }
-  return shares;
+Vec2f square(Random& random) {
+  const float x = random(), y = random();
+  return {Float(x), Float(y)};
+}
+Point point(const Vec2f& v) { return {double{v.x.v}, double{v.y.v}}; }
+
+/// What maps the unit square to directions, against what says how densely.
+template <class Warp>
+statistics::Sampling directions(const Warp& warp, std::function<double(const Direction&)> pdf_sa) {
+  return statistics::sampling_of_directions(
+      [warp](Random& random) -> std::optional<Direction> {
+        const Vec3f w = warp(square(random));
+        EXPECT_NEAR(double(dot(w, w).v), 1, 1e-5);
+        return Direction{double{w.x.v}, double{w.y.v}, double{w.z.v}};
+      },
+      std::move(pdf_sa));
 }
 
 TEST(Warp, DiskPreservesArea) {
-  constexpr int kBins = 16;
-  const auto shares = histogram(kBins * kBins, [](Vec2f u) {
-    const Vec2f d = warp_to_disk(u);
-    const double r2 = double(d.x.v) * double(d.x.v) + double(d.y.v) * double(d.y.v);
-    EXPECT_LE(r2, 1.0 + 1e-6);
-    const double turn = std::atan2(double(d.y.v), double(d.x.v)) / (2 * M_PI) + 0.5;
-    return std::min(int(r2 * kBins), kBins - 1) * kBins + std::min(int(turn * kBins), kBins - 1);
-  });
+  StatisticalTest test;
   // Squared radius and angle are uniform over the disk.
-  for (const double s : shares) EXPECT_NEAR(s * kBins * kBins, 1.0, 0.03);
+  statistics::EvenCells cells({{0, -0.5}, {1, 0.5}}, 32, 32);
+  Random random(1);
+  for (int i = 0; i < 1'000'000; ++i) {
+    const Point d = point(warp_to_disk(square(random)));
+    const double r2 = d[0] * d[0] + d[1] * d[1];
+    ASSERT_LE(r2, 1.0 + 1e-6);
+    cells.add({r2, std::atan2(d[1], d[0]) / (2 * M_PI)});
+  }
+  EXPECT_TRUE(test.chi_square(cells.cells(), {"squared radius", "angle in turns"}, "warp_to_disk"));
 }
 
 TEST(Warp, CosineHemisphereFollowsItsDensity) {
-  constexpr int kBins = 20;
-  const auto shares = histogram(kBins, [](Vec2f u) {
-    const Vec3f w = warp_to_cosine_hemisphere(u);
-    EXPECT_NEAR(double(dot(w, w).v), 1.0, 1e-5);
-    return std::min(int(double(w.z.v) * kBins), kBins - 1);
-  });
-  for (int b = 0; b < kBins; ++b) {
-    // Integral of cos/pi over the zone cos in [b, b+1)/kBins: the pdf over solid angle 2 pi d(cos).
-    double wanted = 0;
-    for (int i = 0; i < 100; ++i) {
-      const double z = (b + (i + 0.5) / 100) / kBins;
-      wanted += double(cosine_hemisphere_pdf_sa(Float(float(z))).v) * 2 * M_PI / (kBins * 100);
-    }
-    EXPECT_NEAR(shares[std::size_t(b)], wanted, 2e-3);
-  }
+  StatisticalTest test;
+  EXPECT_TRUE(test.follows_density(
+      directions(warp_to_cosine_hemisphere,
+                 [](const Direction& d) { return double{cosine_hemisphere_pdf_sa(Float(float(d[2]))).v}; }),
+      "warp_to_cosine_hemisphere"));
+}
+
+TEST(Warp, SphereIsUniform) {
+  StatisticalTest test;
+  EXPECT_TRUE(test.follows_density(directions(warp_to_sphere, [](const Direction&) { return 1 / (4 * M_PI); }),
+                                   "warp_to_sphere"));
 }
 
 TEST(Warp, TriangleIsUniform) {
-  constexpr int kBins = 8;
-  const auto shares = histogram(kBins * kBins, [](Vec2f u) {
-    const Vec2f b = warp_to_triangle(u);
-    EXPECT_GE(double(b.x.v), 0.0);
-    EXPECT_GE(double(b.y.v), 0.0);
-    EXPECT_LE(double(b.x.v) + double(b.y.v), 1.0 + 1e-6);
-    return std::min(int(double(b.x.v) * kBins), kBins - 1) * kBins + std::min(int(double(b.y.v) * kBins), kBins - 1);
-  });
-  for (int i = 0; i < kBins; ++i) {
-    for (int k = 0; k < kBins; ++k) {
-      const double share = shares[std::size_t(i * kBins + k)] * kBins * kBins;
-      const double wanted = i + k < kBins - 1 ? 2.0 : i + k == kBins - 1 ? 1.0 : 0.0;
-      EXPECT_NEAR(share, wanted, 0.05) << i << " " << k;
-    }
-  }
+  StatisticalTest test;
+  const statistics::Sampling sampling{
+      {{0, 0}, {1, 1}},
+      {"b1", "b2"},
+      [](Random& random) { return std::optional(point(warp_to_triangle(square(random)))); },
+      [](const Point& b) { return b[0] + b[1] < 1 ? 2.0 : 0.0; }};
+  EXPECT_TRUE(test.follows_density(sampling, "warp_to_triangle"));
 }
 
+/// Uniform in 1 - cos, up to `h`, and in the angle; the cone's edge is sharp and its own coordinates know where it is.
 TEST(Warp, ConeIsUniformOverItsSolidAngle) {
+  StatisticalTest test;
   for (const float h : {1e-6f, 0.01f, 0.5f, 1.0f}) {
-    constexpr int kBins = 16;
-    const auto shares = histogram(kBins * kBins, [&](Vec2f u) {
-      const Vec3f w = warp_to_cone(u, Float(h));
-      const double sin2 = double(w.x.v) * double(w.x.v) + double(w.y.v) * double(w.y.v);
-      const double height = sin2 / (1 + std::sqrt(std::max(0.0, 1 - sin2)));  // 1 - cos, without cancellation
-      const double turn = std::atan2(double(w.y.v), double(w.x.v)) / (2 * M_PI) + 0.5;
-      return std::min(int(height / double(h) * kBins), kBins - 1) * kBins + std::min(int(turn * kBins), kBins - 1);
-    });
-    for (const double s : shares) EXPECT_NEAR(s * kBins * kBins, 1.0, 0.05) << h;
-    EXPECT_NEAR(double(cone_pdf_sa(Float(h)).v) * 2 * M_PI * double(h), 1.0, 1e-5);
+    statistics::EvenCells cells({{0, -0.5}, {1, 0.5}}, 32, 32);
+    statistics::Mean height;
+    Random random(2);
+    for (int i = 0; i < 1'000'000; ++i) {
+      const Vec3f w = warp_to_cone(square(random), Float(h));
+      const double x{w.x.v}, y{w.y.v}, sin2 = x * x + y * y;
+      const double share = sin2 / (1 + std::sqrt(std::max(0.0, 1 - sin2))) / double{h};  // without cancellation
+      ASSERT_LT(share, 1 + 1e-5);
+      cells.add({share, std::atan2(y, x) / (2 * M_PI)});
+      height.add(share);
+    }
+    const std::string what = "warp_to_cone, 1 - cos " + std::to_string(h);
+    EXPECT_TRUE(test.chi_square(cells.cells(), {"1 - cos over that of the edge", "angle in turns"}, what));
+    EXPECT_TRUE(test.agree(height.estimate(), 0.5, what + ", mean height"));
+    EXPECT_NEAR(double{cone_pdf_sa(Float(h)).v} * 2 * M_PI * double{h}, 1.0, 1e-5);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "tests/closed_form/closed_form.h"
 #include "tests/end_to_end/scene_folder.h"
+#include "tests/statistics/statistical_test.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -97,8 +98,9 @@ TEST_F(SdfGrid, LightsWhatIsAround) {
   const auto picture = picture_of(show(scene, "auto", kSamples));
   for (const auto& pixel : picture.pixels) sum += pixel[0];
   // A sample is 0 or 2. The grid's ball is within 0.2 % of a ball.
-  const double hit = wanted / 2, sigma = 2 * std::sqrt(hit * (1 - hit) / (64.0 * kSamples));
-  EXPECT_NEAR(sum / 64, wanted, 4 * sigma + 0.004 * wanted);
+  const double hit = wanted / 2;
+  statistics::StatisticalTest test;
+  EXPECT_TRUE(test.agree({sum / 64, 4 * hit * (1 - hit) / (64.0 * kSamples), 64 * kSamples}, wanted, "ball", 0.004));
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ inline constexpr Family kSuite[] = {
     {"Warp.CosineHemisphereFollowsItsDensity", kPerDensity},
     {"Warp.SphereIsUniform", kPerDensity},
     {"Warp.TriangleIsUniform", kPerDensity},
-    {"Warp.ConeIsUniformOverItsSolidAngle", 4 * kPerDensity},
+    {"Warp.ConeIsUniformOverItsSolidAngle", 4 * 2},
     {"Analytic.SamplesAreUniformOverTheArea", 1, 2},
     {"Microfacet.VisibleNormalsFollowTheirDensity", 8 * 4 * kPerDensity},
     {"Connect.RaysHaveTheDensityOfConnections", 2 * kCameras* kPerDensity},
