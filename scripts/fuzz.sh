@@ -26,6 +26,8 @@ fuzz_one() {
   local options=(-max_total_time="$seconds" -timeout=25 -rss_limit_mb=2500 -malloc_limit_mb=1000 -print_final_stats=1
                  -artifact_prefix=out/fuzz/"$name"- -verbosity=1)
   [[ $name == xml ]] && options+=(-dict=build/fuzz/xml.dict)
+  # libpng leaves OpenImageIO's functions by longjmp, past what their strings hold.
+  [[ $name == image ]] && options+=(-detect_leaks=0)
   local status=0
   "$programs/fuzz_$name" "${options[@]}" "${corpora[@]}" > "$log" 2>&1 || status=$?
   local runs coverage
