@@ -30,12 +30,13 @@ build:  ## install what is missing and build build/release/norrsken
 	cmake --build $(RELEASE) --target norrsken_program -j $(JOBS)
 
 .PHONY: test
-test: release-all  ## warnings as errors, a render, all tests, the checks, a peer's scenes, the format
+test: release-all  ## warnings as errors, a render, all tests, the checks, a peer's scenes, sanitizers, fuzzers
 	@mkdir -p out
 	$(RELEASE)/norrsken render hexagon_room -o out/hexagon_room.png $(ROOM_ARGS)
 	ctest --test-dir $(RELEASE) -j $(JOBS) --output-on-failure
 	scripts/check_conformance.sh $(RELEASE)/norrsken
 	scripts/check_format.sh
+	@$(MAKE) sanitize-quick fuzz-quick
 
 .PHONY: thorough
 thorough: test tidy sanitize  ## `test`, then clang-tidy and the sanitizers
