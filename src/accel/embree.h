@@ -87,6 +87,7 @@ NORRSKEN_INLINE void number_hits(const AccelView& accel, HitPacket& hits, Mask h
 /// Fills `hit` for the active lanes with the closest hit nearer than `hit.t`.
 inline void closest_in_embree(const SceneView& scene, bool coherent, const Vec3f& o, const Vec3f& d, ClosestHit& hit,
                               Mask active) {
+  active &= is_ray(o, d);
   auto* embree = static_cast<RTCScene>(scene.accel.embree_scene);
   alignas(64) RTCRayHitNt<kLanes> packet;
   store_rays(packet.ray, o, d, hit.t);
@@ -119,6 +120,7 @@ inline void closest_in_embree(const SceneView& scene, bool coherent, const Vec3f
 }
 
 inline Mask occluded_in_embree(const SceneView& scene, const Vec3f& o, const Vec3f& d, Float t_max, Mask active) {
+  active &= is_ray(o, d) & (t_max > Float(0.0f));
   auto* embree = static_cast<RTCScene>(scene.accel.embree_scene);
   alignas(64) RayPacket rays;
   store_rays(rays, o, d, t_max);

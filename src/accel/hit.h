@@ -31,4 +31,10 @@ NORRSKEN_INLINE Affine world_from_object(const InstanceRecord* instances, UInt i
   return gather_affine(instances->place.world_from_local, instance * UInt(kFloats), active);
 }
 
+/// Whether these are rays at all: no NaN and no overflow of a model has got into them.
+NORRSKEN_INLINE Mask is_ray(const Vec3f& o, const Vec3f& d) {
+  constexpr float kFar = 1e18f;  // Embree, built with its checks, ends the program beyond 1.8e18
+  return abs(o.x) + abs(o.y) + abs(o.z) + abs(d.x) + abs(d.y) + abs(d.z) < Float(kFar);
+}
+
 }  // namespace norrsken::NORRSKEN_ISA
