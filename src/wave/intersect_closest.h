@@ -33,7 +33,7 @@ inline void intersect_closest(const SceneView& scene, std::uint32_t hit_number, 
     Mask active = first_lanes(rays.count - i);
     Hit hit;
     hit.ray = load_ray(rays, i);
-    active = keep_rays(hit.ray.origin, hit.ray.direction, hit.ray.slot, memory.slots, active);
+    active = keep_sound(is_sound(hit.ray), hit.ray.slot, memory.slots, active);
     const ClosestHit closest = intersect_closest_lanes(scene, from_camera, hit.ray.origin, hit.ray.direction, active);
     Mask missed = !(closest.t < Float(kInfinity));
     if (from_camera) missed |= !(closest.t <= distance_to_far_plane(scene.camera, hit.ray.direction));
@@ -62,7 +62,7 @@ inline void intersect_emitters(const SceneView& scene, const Queue& rays, WaveMe
     Mask active = first_lanes(rays.count - i);
     Hit hit;
     hit.ray = load_ray(rays, i);
-    active = keep_rays(hit.ray.origin, hit.ray.direction, hit.ray.slot, memory.slots, active);
+    active = keep_sound(is_sound(hit.ray), hit.ray.slot, memory.slots, active);
     ClosestHit closest{Float(kInfinity), UInt(0u)};
     if (scene.accel.kind == AccelKind::planes && scene.environment == kNone) {
       closest_in_planes(scene.accel, scene.accel.emitters, scene.accel.emitter_sphere_count, hit.ray.origin,

@@ -113,14 +113,19 @@ NORRSKEN_INLINE void add_radiance(const Queue& slots, UInt slot, const Vec3f& va
   }
 }
 
-/// Gives up the samples of what is no ray: NaN is what the film drops and counts. Returns the lanes that are left.
-NORRSKEN_INLINE Mask keep_rays(const Vec3f& o, const Vec3f& d, UInt slot, const Queue& slots, Mask active) {
-  const Mask rays = is_ray(o, d), spoilt = active & !rays;
+NORRSKEN_INLINE Mask is_sound(const Ray& ray) {
+  const Vec3f& t = ray.throughput;
+  return is_ray(ray.origin, ray.direction) & (t.x + t.y + t.z < Float(kInfinity));
+}
+
+/// Gives up the samples of lanes that are not `sound`: NaN is what the film drops and counts. Returns the lanes that are left.
+NORRSKEN_INLINE Mask keep_sound(Mask sound, UInt slot, const Queue& slots, Mask active) {
+  const Mask spoilt = active & !sound;
   if (any(spoilt)) {
     const Float nan(__builtin_nanf(""));
     add_radiance(slots, slot, {nan, nan, nan}, spoilt);
   }
-  return active & rays;
+  return active & sound;
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

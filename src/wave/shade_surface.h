@@ -75,7 +75,8 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
   const Vec3f direction = surface.frame.to_world(sample.wi);
   Vec3f throughput = hit.ray.throughput * sample.weight;
   if (map.any) throughput = throughput * map.weight(direction, sample.wi.z);
-  active &= sample.valid & (max_component(throughput) > Float(0.0f));
+  // What is no number goes on to where the sample is given up.
+  active &= sample.valid & !(max_component(throughput) <= Float(0.0f));
   if (n > 1) throughput = throughput * Float(1.0f / static_cast<float>(n));
   if (settings.roulette) {
     const Float survive = survival_probability(throughput);
