@@ -58,7 +58,7 @@ struct RenderProgress {
   double samples_per_second = 0;
   double fraction = 0;       ///< 0 to 1: how much is done, as far as can be told
   double seconds_left = -1;  ///< -1 while unknown
-  RelativeError error;
+  RelativeError error = {};
   std::string checkpoint_error = {};  ///< why the checkpoint could not be written the last time; empty if it could
 };
 
@@ -77,7 +77,7 @@ struct RenderStatistics {
   std::vector<DroppedSample> dropped;  ///< the first few of them
   bool samples_of_pixels = true;  ///< false: paths begin at the lights, and a sample's pixel is where it is counted
   double seconds = 0;
-  RelativeError error;
+  RelativeError error = {};
   bool cancelled = false;        ///< before the end
   bool has_image = false;        ///< there are samples, and the layers are complete
   std::string checkpoint_error;  ///< as in RenderProgress

@@ -124,6 +124,9 @@ void check_arithmetic(const float* a, const float* b, const float* c, std::uint3
     NORRSKEN_CHECK_LANES(copysign(p, q), __builtin_copysignf(x, y));
     NORRSKEN_CHECK_LANES(select(p < q, p, r), (x < y ? x : z));
     NORRSKEN_CHECK_LANES(select(p >= q, p, r), (x >= y ? x : z));
+    // The root of what is negative is no number: not even equal to itself.
+    NORRSKEN_CHECK_LANES(select(sqrt(p) == sqrt(p), p, r), (x < 0 ? z : x));
+    NORRSKEN_CHECK_LANES(select(sqrt(p) != sqrt(p), p, r), (x < 0 ? x : z));
     NORRSKEN_CHECK_LANES(from_bits(bits(p) * bits(q)), float_of(word_of(x) * word_of(y)));
     NORRSKEN_CHECK_LANES(from_bits(bits(p) + bits(q)), float_of(word_of(x) + word_of(y)));
     NORRSKEN_CHECK_LANES(from_bits(shift_right<3>(bits(p)) ^ shift_left<5>(bits(q))),

@@ -46,7 +46,8 @@ NORRSKEN_INLINE Mask operator<=(Float a, Float b) { return {hn::Le(a.v, b.v)}; }
 NORRSKEN_INLINE Mask operator>(Float a, Float b) { return {hn::Gt(a.v, b.v)}; }
 NORRSKEN_INLINE Mask operator>=(Float a, Float b) { return {hn::Ge(a.v, b.v)}; }
 NORRSKEN_INLINE Mask operator==(Float a, Float b) { return {hn::Eq(a.v, b.v)}; }
-NORRSKEN_INLINE Mask operator!=(Float a, Float b) { return {hn::Ne(a.v, b.v)}; }
+// Of NaN it is true, as everywhere else in C++; AVX-512's Ne of Highway says no.
+NORRSKEN_INLINE Mask operator!=(Float a, Float b) { return {hn::Not(hn::Eq(a.v, b.v))}; }
 
 /// a * b + c, rounded once where the instruction set has it, twice where not (SSE4.2).
 NORRSKEN_INLINE Float fma(Float a, Float b, Float c) { return hn::MulAdd(a.v, b.v, c.v); }
