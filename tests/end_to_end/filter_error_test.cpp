@@ -39,7 +39,7 @@ TEST_F(FilterWeights, MakeAnEdgeTheFiltersIntegral) {
                     camera(kSize, {}, R"(<rfilter type="catmullrom"/>)") +
                     R"(<shape type="rectangle"><transform name="to_world"><scale value="10"/><translate x="10"/>
       </transform><emitter type="area"><rgb name="radiance" value="2"/></emitter></shape>)");
-  const auto picture = picture_of(render_image(scene, {.samples_per_pixel = 1024, .threads = kThreads}));
+  const auto picture = picture_of(render_image(scene, {.samples_per_pixel = 32768, .threads = kThreads}));
   // Mitchell and Netravali 1988, "Reconstruction Filters in Computer Graphics", with B = 0 and C = 1/2.
   const auto filter = [](double x) {
     x = std::abs(x);
