@@ -140,7 +140,8 @@ TEST(Compare, SaysWhatDiffers) {
   broken.channels[1].values.clear();
   EXPECT_EQ(compare(image, broken, {}, result).error, "the second image: channel G does not have 4x3 pixels");
   for (const double pixels : {0.0, -1.0, 1e9, std::nan("")}) {
-    EXPECT_THAT(compare(image, image, {.tone = {}, .pixels_per_degree = pixels}, result).error, HasSubstr("accepted are 1 to 1000"));
+    EXPECT_THAT(compare(image, image, {.tone = {}, .pixels_per_degree = pixels}, result).error,
+                HasSubstr("accepted are 1 to 1000"));
   }
   EXPECT_EQ(result.mse, 7);
 }
