@@ -21,6 +21,8 @@ if(NORRSKEN_SANITIZE)
   target_compile_options(norrsken_options INTERFACE
     -fsanitize=${NORRSKEN_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(norrsken_options INTERFACE -fsanitize=${NORRSKEN_SANITIZE})
+  # Tests that hold times allow for what instrumentation costs.
+  target_compile_definitions(norrsken_options INTERFACE NORRSKEN_SANITIZED)
 endif()
 
 # norrsken_layer(NAME SOURCES ... LINK ...): the static library norrsken_NAME of one folder below src/. The property
