@@ -17,6 +17,7 @@
 
 #include "base/memory.h"
 #include "color/srgb.h"
+#include "formats/exr_header.h"
 
 namespace {
 
@@ -95,8 +96,11 @@ const Format kFormats[] = {{"openexr", {"exr"}},      {"png", {"png"}},
 
 /// A file in memory, opened by OpenImageIO.
 struct OpenImage {
-  explicit OpenImage(const std::string& contents) : bytes(const_cast<char*>(contents.data()), contents.size()) {}
+  explicit OpenImage(const std::string& contents)
+      : may_be_exr(norrsken::exr_attributes_fit(contents)),
+        bytes(const_cast<char*>(contents.data()), contents.size()) {}
 
+  bool may_be_exr;
   OIIO::Filesystem::IOMemReader bytes;
   Input input;  ///< empty if it could not be opened
 };
@@ -106,6 +110,7 @@ void open(const std::string& path, OpenImage& image) {
   OIIO::ImageSpec request;
   request["oiio:UnassociatedAlpha"] = 1;  // multiplying encoded colours by alpha is wrong
   const auto opened_as = [&](const Format& format) {
+    if (std::string_view(format.name) == "openexr" && !image.may_be_exr) return false;
     Input input = OIIO::ImageInput::create(format.name);
     OIIO::ImageSpec spec;
     image.bytes.seek(0);
