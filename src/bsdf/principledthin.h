@@ -7,8 +7,9 @@
 //             diffuse_transmittance_sampling_rate (numbers from 0, default 1)
 // Measure     pdf_sa: cosine-weighted on either side, and from visible normals on either side
 // Source      Burley 2012 and 2015 (roughness behind the sheet: figure 15), see principled_lobes.h
-// Departures  none from Mitsuba 3: sheen may give back more than arrives; specular transmission is not reciprocal, since
-//             facets that face away from where light really goes transmit none
+// Departures  none from Mitsuba 3: sheen may give back more than arrives, and so may a white base at slanting angles, by up
+//             to 2 %; specular transmission is not reciprocal, since facets that face away from where light really goes
+//             transmit none
 #pragma once
 
 #include "bsdf/bsdf.h"
