@@ -84,7 +84,7 @@ asan-ubsan-quick tsan-quick:
 	@scripts/install_dependencies.sh test
 	cmake --preset $(PRESET) -DNORRSKEN_WARNINGS_AS_ERRORS=ON -DNORRSKEN_BUILD_TESTS=ON -DNORRSKEN_ISAS=scalar
 	cmake --build build/$(PRESET) -j $(JOBS) --target $(TESTS)
-	ctest --preset $(PRESET) -j $(JOBS) --exclude-regex '_NOT_BUILT'
+	ctest --preset $(PRESET) -j $(JOBS) --exclude-regex '_NOT_BUILT|^Fuzz[.]'
 
 .PHONY: release-all
 release-all:

@@ -45,4 +45,4 @@ export -f fuzz_one
 export seconds programs
 export ASAN_OPTIONS=${ASAN_OPTIONS:-allocator_may_return_null=0:detect_stack_use_after_return=1}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
-printf '%s\n' "$@" | xargs -P "$jobs" -I NAME bash -c 'fuzz_one NAME'
+printf '%s\n' "$@" | xargs -P "$jobs" -I NAME bash -c 'fuzz_one NAME' || exit 1

@@ -195,7 +195,7 @@ TEST_F(MaxMemory, TellsPlaceAndRemedy) {
   EXPECT_THAT(image.err, HasSubstr("scene.xml:4:55: error: image 'image.tga' does not fit into memory: it needs at"));
   const ProcessResult film = render({"--max-memory", "300M", "--size", "4096x4096"});
   EXPECT_EQ(film.status, 64);
-  EXPECT_THAT(film.err, AllOf(HasSubstr("a film of 4096 x 4096 pixels with its image needs 3.92 GiB, and "),
+  EXPECT_THAT(film.err, AllOf(HasSubstr("a film of 4096 x 4096 pixels with its image needs 4.11 GiB, and "),
                               HasSubstr("as by a smaller --size, or a larger --max-memory")));
   EXPECT_LT(film.peak_memory, 100 * kMebibyte) << "told before anything is loaded";
   write_scene(R"(<shape type="sphere"/>)");

@@ -19,11 +19,14 @@ constexpr std::uint64_t kUnlimited = MemoryBudget::kUnlimited;
 
 /// Files that tell how a control group stands.
 struct GroupFiles {
-  const char *folder, *limit, *usage, *reclaimable;
+  const char *folder, *limit, *usage;
+  const char* reclaimable[2];  ///< file cache that has been read once, and more often
 };
-constexpr GroupFiles kVersion1{"sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
-                               "total_inactive_file"};
-constexpr GroupFiles kVersion2{"sys/fs/cgroup", "memory.max", "memory.current", "inactive_file"};
+constexpr GroupFiles kVersion1{"sys/fs/cgroup/memory",
+                               "memory.limit_in_bytes",
+                               "memory.usage_in_bytes",
+                               {"total_inactive_file ", "total_active_file "}};
+constexpr GroupFiles kVersion2{"sys/fs/cgroup", "memory.max", "memory.current", {"inactive_file ", "active_file "}};
 
 std::string contents_of(const std::string& path) {
   const std::ifstream file(path, std::ios::binary);
@@ -55,7 +58,8 @@ std::uint64_t left_in(const std::string& folder, const GroupFiles& files) {
   if (!limit) return kUnlimited;
   const std::uint64_t usage = leading_number(contents_of(folder + files.usage)).value_or(0);
   const std::string statistics = contents_of(folder + "memory.stat");
-  const std::uint64_t cache = number_named(statistics, files.reclaimable + std::string(" ")).value_or(0);
+  std::uint64_t cache = 0;
+  for (const char* name : files.reclaimable) cache += number_named(statistics, name).value_or(0);
   const std::uint64_t held = usage - std::min(cache, usage);
   return *limit - std::min(held, *limit);
 }

@@ -19,17 +19,11 @@ std::string system_message(int code) {
 }
 
 std::optional<std::string> read_all(const RegularFile& file, std::string& error) {
-  // One byte more than expected, so that the end is seen without growing. Files of /proc claim to be empty.
-  std::string contents(file.bytes + 1, '\0');
+  // Files of /proc claim to be empty; some have no end. What another program adds to a file meanwhile is not waited for.
+  constexpr std::uint64_t kMostUntold = std::uint64_t{1} << 20;
+  std::string contents(file.bytes > 0 ? file.bytes : kMostUntold, '\0');
   std::size_t size = 0;
-  for (;;) {
-    if (size == contents.size()) {
-      if (size > kMaxFileBytes) {
-        error = kTooLarge;
-        return std::nullopt;
-      }
-      contents.resize(size * 2 + 4096);
-    }
+  while (size < contents.size()) {
     const ssize_t count = ::read(file.descriptor.get(), contents.data() + size, contents.size() - size);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
@@ -38,6 +32,10 @@ std::optional<std::string> read_all(const RegularFile& file, std::string& error)
     }
     if (count == 0) break;
     size += static_cast<std::size_t>(count);
+  }
+  if (file.bytes == 0 && size == kMostUntold) {
+    error = "claims to be empty, and has a MiB or more";
+    return std::nullopt;
   }
   contents.resize(size);
   return contents;

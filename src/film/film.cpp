@@ -182,10 +182,11 @@ Image Film::image(bool statistics, std::uint32_t feature_samples) const {
     for (std::size_t c = 0; c < 3; ++c) error[c] = add(std::string("error.") + kColors[c]);
     for (std::size_t c = 0; c < 3; ++c) interval[c] = add(std::string("interval.") + kColors[c]);
   }
-  std::vector<std::uint32_t> counts(statistics ? pixels : 0);
-  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = counts_[i] & ~kSomeDropped;
-  if (statistics) std::ranges::copy(counts, image.channels[samples].values.begin());
-  std::vector<PixelEstimate> estimates(statistics ? pixels : 0);
+  if (statistics) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+      image.channels[samples].values[i] = static_cast<float>(counts_[i] & ~kSomeDropped);
+    }
+  }
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t i = 0; i < pixels; ++i) {
       const PixelEstimate e = estimate(i, static_cast<int>(c));
@@ -194,9 +195,10 @@ Image Film::image(bool statistics, std::uint32_t feature_samples) const {
       const double known = e.known ? e.variance : std::numeric_limits<double>::quiet_NaN();
       image.channels[variance[c]].values[i] = static_cast<float>(known);
       image.channels[error[c]].values[i] = static_cast<float>(std::sqrt(known));
-      estimates[i] = e;
     }
-    if (statistics) image.channels[interval[c]].values = confidence_intervals(width_, height_, estimates, counts);
+    if (!statistics) continue;
+    image.channels[interval[c]].values =
+        confidence_intervals(width_, height_, image.channels[variance[c]].values, image.channels[samples].values);
   }
   if (settings_.has_alpha()) add_alpha(image, feature_samples);
   for (const std::string& name : layers_.image_copies) {

@@ -4,7 +4,7 @@
 //   width, height     integers, pixels, 1 to 65536 (default 768 x 576)
 //   crop_offset_x, crop_offset_y, crop_width, crop_height
 //                     integers, pixels (default: all of the film): the rectangle of the film that is rendered; it has at
-//                     most 2^28 pixels and no more than there is memory for: 251 bytes each, its image included, 155 with
+//                     most 2^28 pixels and no more than there is memory for: 263 bytes each, its image included, 167 with
 //                     independent points; 192 more with paths from the lights
 //   sample_border     boolean (default false): filters of pixels at the border of that rectangle reach beyond it, as
 //                     those within do; otherwise they are cut off there

@@ -11,15 +11,15 @@ namespace {
 
 /// How far a pixel's neighbours are away at most, in pixels, and the share of theirs in its variance.
 constexpr std::uint32_t kNeighborReach = 5;
-constexpr double kNeighborShare = 0.85;
+constexpr float kNeighborShare = 0.85f;
 /// Of the power mean of their variances: between the mean of variances, which the noisiest rule, and that of deviations.
-constexpr double kExponent = 0.75;
+constexpr float kExponent = 0.75f;
 
-constexpr double kNormal = 1.959964;  // 97.5 % of the normal distribution
+constexpr float kNormal = 1.959964f;  // 97.5 % of the normal distribution
 
 /// Powers of the variances of one sample, added up over pixels, and how many pixels those were.
 struct Pool {
-  double power = 0, pixels = 0;
+  float power = 0, pixels = 0;
 };
 
 /// Each element becomes the sum of those up to kNeighborReach away, of `count` elements that lie `stride` apart.
@@ -40,23 +40,22 @@ void sum_neighbors(std::span<Pool> pools, std::size_t first, std::size_t count, 
 
 }  // namespace
 
-std::vector<float> confidence_intervals(std::uint32_t width, std::uint32_t height,
-                                        const std::vector<PixelEstimate>& estimates,
-                                        const std::vector<std::uint32_t>& samples) {
-  std::vector<Pool> pools(estimates.size());
+std::vector<float> confidence_intervals(std::uint32_t width, std::uint32_t height, std::span<const float> variances,
+                                        std::span<const float> samples) {
+  std::vector<Pool> pools(variances.size());
   for (std::size_t i = 0; i < pools.size(); ++i) {
-    if (estimates[i].known) pools[i] = {std::pow(estimates[i].variance * samples[i], kExponent), 1};
+    if (variances[i] >= 0) pools[i] = {std::pow(variances[i] * samples[i], kExponent), 1};
   }
   std::vector<Pool> line;
   for (std::size_t y = 0; y < height; ++y) sum_neighbors(pools, y * width, width, 1, line);
   for (std::size_t x = 0; x < width; ++x) sum_neighbors(pools, x, height, width, line);
 
-  std::vector<float> intervals(estimates.size(), std::numeric_limits<float>::quiet_NaN());
+  std::vector<float> intervals(variances.size(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < intervals.size(); ++i) {
-    if (!(pools[i].pixels > 0) || samples[i] == 0) continue;
-    const double around = std::pow(pools[i].power / pools[i].pixels, 1 / kExponent) / samples[i];
-    const double own = estimates[i].known ? estimates[i].variance : around;
-    intervals[i] = static_cast<float>(kNormal * std::sqrt(own + kNeighborShare * (around - own)));
+    if (!(pools[i].pixels > 0) || !(samples[i] > 0)) continue;
+    const float around = std::pow(pools[i].power / pools[i].pixels, 1 / kExponent) / samples[i];
+    const float own = variances[i] >= 0 ? variances[i] : around;
+    intervals[i] = kNormal * std::sqrt(own + kNeighborShare * (around - own));
   }
   return intervals;
 }

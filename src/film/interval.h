@@ -11,16 +11,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
-
-#include "film/pixel_estimate.h"
 
 namespace norrsken {
 
 /// Of one channel, row by row: half the width of each pixel's interval; NaN where not even the neighbours' variances are
-/// known. `samples` are those of each pixel, by which variances of means compare.
-std::vector<float> confidence_intervals(std::uint32_t width, std::uint32_t height,
-                                        const std::vector<PixelEstimate>& estimates,
-                                        const std::vector<std::uint32_t>& samples);
+/// known. `variances` are those of the pixels' means, NaN where unknown, and `samples` how many are in each, by which
+/// variances of means compare.
+std::vector<float> confidence_intervals(std::uint32_t width, std::uint32_t height, std::span<const float> variances,
+                                        std::span<const float> samples);
 
 }  // namespace norrsken

@@ -54,7 +54,7 @@ std::uint64_t decoding_bytes(const OIIO::ImageSpec& spec) { return spec.image_by
 /// Whether a file of so many bytes may hold the image. Deflate makes at most 1032 bytes of one (zlib's manual), runs make
 /// less, and a pixel has a bit or more. Formats that leave out what cannot be seen have no such limit.
 bool may_hold(const OIIO::ImageInput& input, std::size_t file_bytes) {
-  constexpr std::string_view kBounded[] = {"png", "bmp", "targa", "hdr"};
+  constexpr std::string_view kBounded[] = {"png", "targa", "hdr"};
   constexpr std::string_view kBoundedExr[] = {"none", "rle", "zip", "zips", "pxr24"};
   const OIIO::ImageSpec& spec = input.spec();
   const std::string format = input.format_name(), compression = spec.get_string_attribute("compression");

@@ -290,6 +290,10 @@ Attempt attempt(const std::string& path, const Traits& traits, const SampleSched
     diagnostics.error(place(path), "the checkpoint " + message, accepted);
     return Attempt::refused;
   }
+  // Features of more samples than asked for are as good.
+  if (!work.feature_progress.empty() && stored.feature_samples.count() > work.feature_samples.count()) {
+    work.feature_samples = stored.feature_samples;
+  }
   const SampleGoal goal = schedule.resume(work.grid, stored.goal, stored.progress).value();
   const SampleRange samples{work.samples.first, work.samples.first + goal.most()};
   const TileProgress features = SampleGoal::uniform(work.grid, work.feature_samples.count(), false).of_tile;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <system_error>
@@ -83,7 +84,11 @@ void Work::set_goal(SampleGoal next) {
   samples.end = samples.first + goal.most();
 }
 
-bool Work::done() const { return features_done() && progress == goal.of_tile; }
+bool Work::done() const {
+  return features_done() && std::ranges::equal(progress, goal.of_tile, std::ranges::greater_equal());
+}
+
+bool Work::has_first_samples() const { return std::ranges::find(progress, 0u) == progress.end(); }
 
 std::uint64_t Work::samples_done() const {
   std::uint64_t done = 0;

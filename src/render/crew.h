@@ -35,6 +35,8 @@ struct Work {
   bool features_done() const;
   /// Features and goal.
   bool done() const;
+  /// Of every pixel.
+  bool has_first_samples() const;
   /// Camera samples on the film.
   std::uint64_t samples_done() const;
 };

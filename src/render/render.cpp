@@ -19,6 +19,8 @@ namespace norrsken {
 namespace {
 
 constexpr std::uint32_t kFeatureSamples = 16;
+/// Of scenes that name layers, where nobody knows how many samples the image will have.
+constexpr std::uint32_t kOpenFeatureSamples = 64;
 constexpr double kProgressSeconds = 0.1;
 constexpr std::uint32_t kMostSamples = std::numeric_limits<int>::max();
 
@@ -64,7 +66,10 @@ std::string accelerator_for(const Scene& scene, const RenderOptions& options) {
 
 /// Scenes that name layers get them of as many samples as the image, others of the first few of all.
 SampleRange feature_range(const Scene& scene, const RenderOptions& options, SampleRange samples) {
-  if (needs_all_features(scene)) return samples;
+  const bool is_open = options.target_error > 0 || options.seconds > 0;
+  if (needs_all_features(scene)) {
+    return is_open ? SampleRange{samples.first, samples.first + kOpenFeatureSamples} : samples;
+  }
   if (!options.features) return {};
   return {std::min(samples.first, kFeatureSamples), std::min(samples.end, kFeatureSamples)};
 }
@@ -124,7 +129,7 @@ class RenderSession final : public Render {
     while (!is_complete && !cancelled_.load(std::memory_order_relaxed)) {
       reach_goal(crew, watch, on_progress ? [&] { on_progress(progress()); } : std::function<void()>{});
       const double seconds = watch.seconds();
-      is_complete = schedule_.is_over(seconds);
+      is_complete = has_features_ && work_.has_first_samples() && schedule_.is_over(seconds);
       if (!work_.done() || is_complete) continue;
       const double taken = static_cast<double>(crew.samples_done() - resumed) / pixels();
       std::optional<SampleGoal> next = schedule_.next(work_.grid, film_, work_.goal, seconds, taken);
@@ -169,9 +174,12 @@ class RenderSession final : public Render {
   /// Until the goal is reached, the rendering is cancelled or time is up. `tell` is called now and then if there is one.
   void reach_goal(Crew& crew, Stopwatch& watch, const std::function<void()>& tell) {
     Stopwatch since_progress;
-    bool has_features = work_.features_done();
+    has_features_ = work_.features_done();
+    // Without a sample of every pixel there is no image to stop at.
+    const bool heeds_time = work_.has_first_samples();
     const auto goes_on = [&] {
-      return !cancelled_.load(std::memory_order_relaxed) && !(has_features && schedule_.is_over(watch.seconds()));
+      const bool is_over = heeds_time && has_features_ && schedule_.is_over(watch.seconds());
+      return !cancelled_.load(std::memory_order_relaxed) && !is_over;
     };
     while (!work_.done() && goes_on()) {
       const Stopwatch since_save;
@@ -182,12 +190,12 @@ class RenderSession final : public Render {
                               }
                               return goes_on() && (checkpoint_.empty() || since_save.seconds() < checkpoint_seconds_);
                             }};
-      if (!has_features) {
+      if (!has_features_) {
         crew.run_features(tick);
-        has_features = work_.features_done();
+        has_features_ = work_.features_done();
         watch = {};  // figures, and the time that there is, are those of the image, not of its layers
       }
-      if (has_features) crew.run(tick);
+      if (has_features_) crew.run(tick);
       save();
     }
   }
@@ -201,9 +209,9 @@ class RenderSession final : public Render {
     const double taken = static_cast<double>(p.samples_done - resumed);
     p.samples_per_second = taken / std::max(seconds, 1e-9);
     p.error = crew.relative_error();
-    const Outlook outlook =
-        schedule_.outlook(seconds, p.error, static_cast<double>(p.samples_done) / pixels(), taken / pixels());
-    p.fraction = outlook.fraction;
+    const Outlook outlook = schedule_.outlook(has_features_ ? seconds : 0, p.error,
+                                              static_cast<double>(p.samples_done) / pixels(), taken / pixels());
+    p.fraction = std::min(outlook.fraction, 0.99);  // only the last report says that all is done
     p.seconds_left = outlook.seconds_left;
     p.checkpoint_error = checkpoint_error_;
     return p;
@@ -225,6 +233,7 @@ class RenderSession final : public Render {
   Film film_;
   SampleSchedule schedule_;
   Work work_;
+  bool has_features_ = false;  ///< as far as the calling thread knows
   std::string checkpoint_;
   double checkpoint_seconds_ = 0;
   Traits traits_;  ///< this and the next for checkpoints only

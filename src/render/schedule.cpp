@@ -3,12 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace norrsken {
 namespace {
 
 /// Whole waves of samples, and whole sets of replicates where there is no time for those.
 constexpr std::uint32_t kBlock = 16, kSmallBlock = kReplicates;
+
+/// With fewer regions a region's own noise would be felt in its own number of samples.
+constexpr std::size_t kFewestRegions = 64;
+/// No region gets more than so many times the mean: spots of noise must not draw all samples to their surroundings.
+constexpr std::uint32_t kGreatestShare = 16;
 
 /// Of what a prediction says, so that it comes true.
 constexpr double kTimeMargin = 0.97;
@@ -32,6 +38,11 @@ std::uint64_t SampleGoal::total(const TileGrid& grid) const {
   return sum;
 }
 
+SampleGoal SampleGoal::and_at_least(const TileProgress& samples) && {
+  for (std::size_t tile = 0; tile < of_tile.size(); ++tile) of_tile[tile] = std::max(of_tile[tile], samples[tile]);
+  return std::move(*this);
+}
+
 SampleSchedule::SampleSchedule(const RenderOptions& options, std::uint32_t most)
     : most_(most), target_error_(options.target_error), seconds_(options.seconds), adaptive_(options.adaptive) {}
 
@@ -48,18 +59,21 @@ std::uint32_t SampleSchedule::next_mean(const FilmError& error, std::uint32_t re
   if (target_error_ > 0) {
     const RelativeError now = error.relative();
     // The upper end, so that the true error is as small as that, too.
-    if (now.value >= 0 ? now.high <= target_error_ : reached >= kDarkSamples) return reached;
+    const bool is_dark = now.value < 0 && error.channels > 0;
+    if ((now.value >= 0 && now.high <= target_error_) || (is_dark && reached >= kDarkSamples)) return reached;
     const double ratio = now.value > 0 ? now.high / target_error_ : 2;
     const double needed = std::ceil(reached * ratio * ratio / kBlock) * kBlock;
     if (needed < mean) mean = std::max(static_cast<std::uint32_t>(needed), reached + 1);
   }
   if (mean < most_) mean = std::min((mean + kBlock - 1) / kBlock * kBlock, most_);
+  if (seconds_ > 0 && !(taken > 0)) mean = std::min(mean, reached + kSmallBlock);
   if (seconds_ > 0 && taken > 0) {
     const double fitting = reached + kTimeMargin * (seconds_ - seconds) / (seconds / taken);
     if (fitting < mean) {
       const auto fits = static_cast<std::uint32_t>(std::max(fitting, 0.0));
-      const std::uint32_t blocks = round_down(fits, kBlock);
-      mean = blocks > reached ? blocks : round_down(fits, kSmallBlock);
+      mean = round_down(fits, kBlock);
+      if (mean <= reached) mean = round_down(fits, kSmallBlock);
+      if (mean <= reached) mean = fits;
     }
   }
   return std::max(mean, reached);
@@ -71,18 +85,20 @@ std::optional<SampleGoal> SampleSchedule::next(const TileGrid& grid, const Film&
   const FilmError error = target_error_ > 0 ? film.error({0, 0, film.width(), film.height()}) : FilmError{};
   const std::uint32_t mean = next_mean(error, reached.mean, seconds, taken);
   if (mean <= reached.mean) return {};
-  // The first samples say too little.
-  if (!adaptive_ || reached.mean < kBlock) return SampleGoal::uniform(grid, mean, true);
-  SampleGoal goal = allocate_samples(grid, film, reached, mean);
-  // What one block would overdraw is left out, but not for ever.
-  if (goal.of_tile == reached.of_tile) return {};
-  return goal;
+  if (adaptive_ && reached.mean >= kBlock) {  // the first samples say too little
+    SampleGoal goal = allocate_samples(grid, film, reached, mean);
+    if (goal.of_tile != reached.of_tile) return goal;
+  }
+  // Also where no noise has been seen yet, which may be because it is rare.
+  return SampleGoal::uniform(grid, mean, true).and_at_least(reached.of_tile);
 }
 
 std::optional<SampleGoal> SampleSchedule::resume(const TileGrid& grid, const SampleGoal& stored,
                                                  const TileProgress& progress) const {
   const std::uint32_t done = progress.empty() ? 0 : *std::ranges::max_element(progress);
-  if (by_steps() && stored.is_step) return stored.mean <= most_ ? std::optional(stored) : std::nullopt;
+  // Time is only heeded when every pixel has a sample.
+  if (seconds_ > 0 && std::ranges::find(progress, 0u) != progress.end()) return first(grid).and_at_least(progress);
+  if (by_steps() && stored.is_step && stored.mean <= most_) return stored;
   if (done > most_) return {};
   // A rendering of a given number of samples may have been left far from its end.
   const std::uint32_t begun = std::min((done + kBlock - 1) / kBlock * kBlock, most_);
@@ -136,8 +152,8 @@ void set_deviations(std::vector<Region>& regions, std::int64_t columns) {
   }
 }
 
-std::uint32_t share(const Region& region, double scale) {
-  const double samples = std::min(scale * region.deviation, 1e9);
+std::uint32_t share(const Region& region, double scale, double most) {
+  const double samples = std::min(scale * region.deviation, most);
   return std::max(region.floor, round_down(static_cast<std::uint32_t>(samples), kBlock));
 }
 
@@ -157,12 +173,14 @@ SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const Sample
     region.floor = std::max(samples, round_down(mean / 4, kBlock));
     budget += region.pixels * mean;
   }
+  if (regions.size() < kFewestRegions) return SampleGoal::uniform(grid, mean, true).and_at_least(reached.of_tile);
   set_deviations(regions, plan.areas_per_row());
+  const double most = std::min(static_cast<double>(kGreatestShare) * mean, 1e9);
 
   // The greatest scale whose samples are no more than asked for.
   const auto cost = [&](double scale) {
     double samples = 0;
-    for (const Region& region : regions) samples += region.pixels * share(region, scale);
+    for (const Region& region : regions) samples += region.pixels * share(region, scale, most);
     return samples;
   };
   double low = 0, high = 1;
@@ -172,7 +190,8 @@ SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const Sample
     (cost(middle) <= budget ? low : high) = middle;
   }
   SampleGoal goal{mean, reached.of_tile, true};
-  for (std::uint64_t i = 0; i < plan.area_count(); ++i) plan.set_progress_of(i, share(regions[i], low), goal.of_tile);
+  for (std::uint64_t i = 0; i < plan.area_count(); ++i)
+    plan.set_progress_of(i, share(regions[i], low, most), goal.of_tile);
   return goal;
 }
 

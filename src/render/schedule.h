@@ -26,6 +26,8 @@ struct SampleGoal {
   std::uint32_t most() const;
   /// Samples in all.
   std::uint64_t total(const TileGrid& grid) const;
+  /// The same, and nowhere fewer than `samples`.
+  SampleGoal and_at_least(const TileProgress& samples) &&;
 };
 
 /// How much of a rendering is done, 0 to 1, and how long the rest will take; -1 while unknown.
@@ -64,7 +66,8 @@ class SampleSchedule {
 /// Neyman's allocation (1934; Cochran, Sampling Techniques, 5.5) of more samples: a tile gets as many as the standard
 /// deviation of one sample asks for, but not fewer than a quarter of the mean or than it has. That deviation is one of the
 /// tiles around, never of the tile itself: a number of samples that depended on their values would pull the image down
-/// where dark samples came first (Kirk and Arvo, Unbiased Sampling Techniques for Image Synthesis, 1991).
+/// where dark samples came first (Kirk and Arvo, Unbiased Sampling Techniques for Image Synthesis, 1991). What it has is still
+/// felt through the budget that all share, the less the more tiles there are; with few, all get the same.
 SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const SampleGoal& reached, std::uint32_t mean);
 
 }  // namespace norrsken

@@ -71,6 +71,7 @@ TEST_F(Allocation, IsDecidedByTheNeighbors) {
   deviations[tile(5, 7)] = 100;
   take_samples(deviations);
   const SampleGoal goal = allocate(64);
+  // Never more; fewer only as its neighbours leave less of the budget to all.
   EXPECT_LE(goal.of_tile[tile(5, 7)], even.of_tile[tile(5, 7)]);
   EXPECT_GT(goal.of_tile[tile(5, 8)], even.of_tile[tile(5, 8)]);
   EXPECT_GT(goal.of_tile[tile(4, 7)], even.of_tile[tile(4, 7)]);
@@ -80,6 +81,52 @@ TEST_F(Allocation, NoNoiseNeedsNoMoreThanTheLeast) {
   take_samples(std::vector<double>(grid_.tile_count(), 0));
   const SampleGoal goal = allocate(128);
   EXPECT_TRUE(std::ranges::all_of(goal.of_tile, [](std::uint32_t n) { return n == 32; }));
+}
+
+TEST_F(Allocation, NoRegionGetsMoreThanSixteenTimesTheMean) {
+  std::vector<double> deviations(grid_.tile_count(), 1e-6);
+  deviations[tile(5, 7)] = 1;
+  take_samples(deviations);
+  const SampleGoal goal = allocate(64);
+  EXPECT_LE(goal.most(), 16u * 64u);
+  EXPECT_EQ(goal.of_tile[tile(5, 8)], goal.of_tile[tile(4, 7)]);
+}
+
+class Schedule : public Allocation {
+ protected:
+  /// Samples per pixel after 10 seconds for `reached`, all taken in that time.
+  std::uint32_t next(const RenderOptions& options, std::uint32_t reached, std::uint32_t most = 1u << 20) {
+    const auto goal =
+        SampleSchedule(options, most)
+            .next(grid_, film_, SampleGoal::uniform(grid_, reached, true), 10, static_cast<double>(reached));
+    return goal ? goal->mean : reached;
+  }
+};
+
+TEST_F(Schedule, FillsTheTimeWithWhateverFits) {
+  EXPECT_EQ(next({.seconds = 60}, 1), 4u) << "five fit";
+  EXPECT_EQ(next({.seconds = 24}, 1), 2u);
+  EXPECT_EQ(next({.seconds = 15}, 1), 1u) << "not even one more fits";
+  EXPECT_EQ(next({.seconds = 40}, 32), 64u);
+  EXPECT_EQ(next({.seconds = 16}, 32), 48u);
+  EXPECT_EQ(next({.seconds = 13}, 32), 40u);
+  EXPECT_EQ(next({.seconds = 40}, 32, 50), 50u);
+}
+
+/// What adaptive sampling has put somewhere stays.
+TEST_F(Schedule, EvenGoalsTakeInUnevenOnes) {
+  take_samples(std::vector<double>(grid_.tile_count(), 1));
+  SampleGoal reached = SampleGoal::uniform(grid_, kTaken, true);
+  reached.of_tile[3] = 1000;
+  const auto goal = SampleSchedule({.target_error = 0.001}, 1u << 20).next(grid_, film_, reached, 1, 1);
+  ASSERT_TRUE(goal);
+  EXPECT_EQ(goal->of_tile[3], 1000u);
+  EXPECT_EQ(goal->of_tile[4], 32u);
+}
+
+TEST_F(Schedule, AdaptiveWithoutNoiseGoesOn) {
+  take_samples(std::vector<double>(grid_.tile_count(), 0));
+  EXPECT_EQ(next({.adaptive = true}, kTaken, 4096), 32u);
 }
 
 TEST(Outlook, IsThatOfWhatComesFirst) {

@@ -33,8 +33,8 @@ inline std::uint64_t film_bytes_per_pixel(const FilmSettings& settings, SamplerK
 
 /// Bytes per pixel of the image that a film becomes, with every layer that may be asked for, and of writing it.
 inline std::uint64_t image_bytes_per_pixel(const FilmSettings& settings, const SceneLayers& layers) {
-  // R, G, B, their variances and errors, and the number of samples.
-  const std::uint64_t channels = 10 + (settings.has_alpha() ? 1 : 0) + layers.features.size() +
+  // R, G, B, their variances, errors and intervals, and the number of samples.
+  const std::uint64_t channels = 13 + (settings.has_alpha() ? 1 : 0) + layers.features.size() +
                                  4 * layers.image_copies.size() + 6 * layers.moments.size();
   // Three other floats or four halves for an EXR file, three bytes for others.
   constexpr std::uint64_t kWriting = 3 * sizeof(float) + 3;

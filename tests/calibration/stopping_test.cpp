@@ -147,6 +147,38 @@ TEST(Steps, InterruptionsChangeNoBit) {
   }
 }
 
+/// What one command has left, another goes on from, whatever it asks for.
+TEST(Steps, CheckpointsGoOnByOtherRules) {
+  const Scene scene = room(160);
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("norrsken_rules_" + std::to_string(getpid()))).string();
+  RenderOptions options{.samples_per_pixel = 64, .adaptive = true, .threads = kThreads};
+  options.checkpoint = file;
+  const auto go_on = [&](std::optional<int> samples, double error, double seconds, bool adaptive) {
+    options.samples_per_pixel = samples;
+    options.target_error = error;
+    options.seconds = seconds;
+    options.adaptive = adaptive;
+    const RenderStatistics statistics = create(scene, options)->run();
+    EXPECT_FALSE(statistics.cancelled);
+    return static_cast<double>(statistics.samples) / (160 * 160);
+  };
+  EXPECT_GT(go_on(64, 0, 0, true), 60);
+  EXPECT_GE(go_on(72, 0.001, 0, false), 72);
+  EXPECT_GT(go_on({}, 0, 0.2, false), 72);
+  EXPECT_GT(go_on({}, 0.08, 0, true), 72);
+  const double before = go_on(1000, 0, 0, false);
+  EXPECT_EQ(before, 1000);
+  std::filesystem::remove(file);
+  std::filesystem::remove(file + ".1");
+}
+
+TEST(Steps, ATimeTooShortForOneSampleTakesIt) {
+  const Outcome outcome = render(room(400), {.seconds = 1e-6, .threads = kThreads});
+  EXPECT_FALSE(outcome.statistics.cancelled);
+  EXPECT_EQ(even_samples(outcome.image), 1);
+}
+
 TEST(Steps, RefuseWhatHasNoMeaning) {
   const Scene scene = room(8);
   const auto complaint = [&](const RenderOptions& options) {
