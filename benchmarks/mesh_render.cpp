@@ -170,7 +170,14 @@ void render(const SceneView& scene, const KernelEntry& kernels, std::uint64_t sa
   const std::atomic<bool> cancelled{false};
   Film film(scene.film, scene.sampler.kind);
   const TileGrid grid = Crew::grid(scene, film.width(), film.height());
-  Work work{grid, {0, static_cast<std::uint32_t>(samples)}, {}, TileProgress(grid.tile_count()), {}, {}};
+  Work work{.grid = grid,
+            .samples = {},
+            .feature_samples = {},
+            .goal = {},
+            .progress = TileProgress(grid.tile_count()),
+            .feature_progress = {},
+            .dropped = {}};
+  work.set_goal(SampleGoal::uniform(grid, static_cast<std::uint32_t>(samples), false));
   Crew crew(scene, kernels, film, work, threads, cancelled);
   crew.run({std::chrono::milliseconds(100), [] { return true; }});
 }
