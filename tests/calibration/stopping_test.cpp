@@ -87,12 +87,9 @@ TEST(TimeLimit, IsKept) {
   for (const bool adaptive : {false, true}) {
     const Outcome outcome = render(room(48), {.seconds = 1, .adaptive = adaptive, .threads = kThreads});
     EXPECT_FALSE(outcome.statistics.cancelled);
-    EXPECT_GT(outcome.statistics.seconds, 0.3);
+    EXPECT_GT(outcome.statistics.seconds, 0.5) << "the time is made use of";
     EXPECT_LT(outcome.statistics.seconds, 3) << "a busy machine may be late, but not by so much";
     EXPECT_GT(outcome.samples_per_pixel, 1);
-    if (!adaptive) {
-      EXPECT_EQ(std::fmod(outcome.samples_per_pixel, 4), 0) << outcome.samples_per_pixel;
-    }
   }
 }
 
