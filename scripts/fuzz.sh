@@ -2,7 +2,8 @@
 # Runs the fuzz targets of build/fuzz: `make fuzz` and `make fuzz-quick`.
 #   scripts/fuzz.sh SECONDS JOBS [TARGET ...]
 # What a target learns is kept in build/fuzz/learned/TARGET; an input that it fails on becomes out/fuzz/TARGET-..., its
-# log out/fuzz/TARGET.log. Exit status 1 if any target has failed.
+# log out/fuzz/TARGET.log. FUZZ_SEED in the environment: the seed, so that a run is as good as repeated. Exit status 1 if any
+# target has failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -25,6 +26,7 @@ fuzz_one() {
   for folder in fuzz/corpus/"$name" fuzz/found/"$name"; do [[ -d $folder ]] && corpora+=("$folder"); done
   local options=(-max_total_time="$seconds" -timeout=25 -rss_limit_mb=2500 -malloc_limit_mb=1000 -print_final_stats=1
                  -artifact_prefix=out/fuzz/"$name"- -verbosity=1)
+  [[ -n ${FUZZ_SEED:-} ]] && options+=(-seed="$FUZZ_SEED")
   [[ $name == xml ]] && options+=(-dict=build/fuzz/xml.dict)
   # libpng leaves OpenImageIO's functions by longjmp, past what their strings hold.
   [[ $name == image ]] && local -x ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0
