@@ -81,8 +81,10 @@ class CountedAllocator {
  public:
   using value_type = T;
   // What is moved is not copied: a budget goes with its memory.
+  // NOLINTBEGIN(readability-identifier-naming): the standard's names
   using propagate_on_container_move_assignment = std::true_type;
   using propagate_on_container_swap = std::true_type;
+  // NOLINTEND(readability-identifier-naming)
 
   CountedAllocator() noexcept : budget_(MemoryScope::current()) {}
   template <class U>

@@ -146,7 +146,7 @@ TEST(Steps, InterruptionsChangeNoBit) {
 
 /// What one command has left, another goes on from, whatever it asks for.
 TEST(Steps, CheckpointsGoOnByOtherRules) {
-  const Scene scene = room(160);
+  const Scene scene = room(96);
   const std::string file =
       (std::filesystem::temp_directory_path() / ("norrsken_rules_" + std::to_string(getpid()))).string();
   RenderOptions options{.samples_per_pixel = 64, .adaptive = true, .threads = kThreads};
@@ -158,14 +158,13 @@ TEST(Steps, CheckpointsGoOnByOtherRules) {
     options.adaptive = adaptive;
     const RenderStatistics statistics = create(scene, options)->run();
     EXPECT_FALSE(statistics.cancelled);
-    return static_cast<double>(statistics.samples) / (160 * 160);
+    return static_cast<double>(statistics.samples) / (96 * 96);
   };
   EXPECT_GT(go_on(64, 0, 0, true), 60);
   EXPECT_GE(go_on(72, 0.001, 0, false), 72);
-  EXPECT_GT(go_on({}, 0, 0.2, false), 72);
-  EXPECT_GT(go_on({}, 0.08, 0, true), 72);
-  const double before = go_on(1000, 0, 0, false);
-  EXPECT_EQ(before, 1000);
+  EXPECT_GT(go_on({}, 0, 0.05, false), 72);
+  EXPECT_GT(go_on({}, 0.2, 0, true), 72);
+  EXPECT_EQ(go_on(500, 0, 0, false), 500);
   std::filesystem::remove(file);
   std::filesystem::remove(file + ".1");
 }
