@@ -60,7 +60,7 @@ bool may_hold(const OIIO::ImageInput& input, std::size_t file_bytes) {
   const std::string format = input.format_name(), compression = spec.get_string_attribute("compression");
   const bool bounded = std::ranges::find(kBounded, format) != std::end(kBounded) ||
                        (format == "openexr" && std::ranges::find(kBoundedExr, compression) != std::end(kBoundedExr));
-  return !bounded || spec.image_pixels() / (8 * 1032) <= file_bytes;
+  return !bounded || spec.image_pixels() / (std::size_t{8} * 1032) <= file_bytes;
 }
 
 /// Hands the image to `use(values)` in blocks of rows, all channels one behind the other. Empty, or what is
