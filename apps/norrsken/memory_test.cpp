@@ -162,7 +162,7 @@ TEST_F(MaxMemory, IsKept) {
   write_mesh_scene();
   const std::uint64_t needed = render().peak_memory;
   int accepted = 0, refused = 0;
-  for (const double share : {0.1, 0.4, 0.7, 1.0, 1.3, 1.6}) {
+  for (const double share : {0.25, 0.4, 0.6, 0.8, 1.3, 1.6}) {
     const auto limit = static_cast<std::uint64_t>(share * static_cast<double>(needed));
     const ProcessResult result = render({"--max-memory", std::to_string(limit)});
     if (result.status == 0) {
