@@ -25,6 +25,13 @@ std::string found(const std::string& text, std::string_view accepted) {
   return fmt::format("found '{}', accepted is {}", text, accepted);
 }
 
+/// Values for which `is_right(text)`; `accepted` says in words which those are.
+template <class IsRight>
+CLI::Validator accepting(std::string_view accepted, IsRight is_right) {
+  return CLI::Validator([=](const std::string& text) { return is_right(text) ? std::string() : found(text, accepted); },
+                        "");
+}
+
 /// Names of a command's options as they are typed: "--spp", "-o".
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
@@ -186,53 +193,33 @@ CLI::Validator one_of(std::vector<std::string> words) {
 }
 
 CLI::Validator image_size() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        return parse_size(text).first > 0 ? std::string() : found(text, "WIDTHxHEIGHT in pixels, as in 800x600");
-      },
-      "");
+  return accepting("WIDTHxHEIGHT in pixels, as in 800x600",
+                   [](const std::string& text) { return parse_size(text).first > 0; });
 }
 
 CLI::Validator definition() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        return parse_definition(text).first.empty() ? found(text, "NAME=VALUE, as in -Dlight=point") : std::string();
-      },
-      "");
+  return accepting("NAME=VALUE, as in -Dlight=point",
+                   [](const std::string& text) { return !parse_definition(text).first.empty(); });
 }
 
 CLI::Validator duration() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        return parse_duration(text) ? std::string() : found(text, "a time with its unit, as in 90s, 1.5m or 2h");
-      },
-      "");
+  return accepting("a time with its unit, as in 90s, 1.5m or 2h",
+                   [](const std::string& text) { return parse_duration(text).has_value(); });
 }
 
 CLI::Validator share() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        return parse_share(text) ? std::string()
-                                 : found(text, "a share greater than 0 and less than 1, as in 1% or 0.01");
-      },
-      "");
+  return accepting("a share greater than 0 and less than 1, as in 1% or 0.01",
+                   [](const std::string& text) { return parse_share(text).has_value(); });
 }
 
 CLI::Validator sample_range() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        return parse_samples(text) ? std::string() : found(text, "FIRST:END, as in 0:64 for the samples 0 to 63");
-      },
-      "");
+  return accepting("FIRST:END, as in 0:64 for the samples 0 to 63",
+                   [](const std::string& text) { return parse_samples(text).has_value(); });
 }
 
 CLI::Validator memory_size() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        return parse_memory_size(text) ? std::string()
-                                       : found(text, "a size in bytes, as in 4G or 512M (of 1024), or none");
-      },
-      "");
+  return accepting("a size in bytes, as in 4G or 512M (of 1024), or none",
+                   [](const std::string& text) { return parse_memory_size(text).has_value(); });
 }
 
 void MemoryArguments::add_to(CLI::App& command) {

@@ -25,11 +25,14 @@ TEST(ParseSize, TakesTwoPositiveWholeNumbersAndNothingElse) {
     EXPECT_THAT(parse_size(wrong), Pair(0, 0)) << wrong;
 }
 
-TEST(ParseDuration, TakesANumberWithItsUnit) {
+TEST(ParseShare, TakesAFractionOrPercent) {
   EXPECT_EQ(parse_share("1%"), 0.01);
   EXPECT_EQ(parse_share("0.005"), 0.005);
   for (const char* wrong : {"", "%", "0", "0%", "100%", "1", "-1%", "nan", "1%%", "1 percent"})
     EXPECT_EQ(parse_share(wrong), std::nullopt) << wrong;
+}
+
+TEST(ParseDuration, TakesANumberWithItsUnit) {
   EXPECT_EQ(parse_duration("90s"), 90.0);
   EXPECT_EQ(parse_duration("1.5m"), 90.0);
   EXPECT_EQ(parse_duration("2h"), 7200.0);

@@ -68,8 +68,9 @@ void add_merge_command(CLI::App& app, Action& action) {
       ->take_all()
       ->allow_extra_args(false)
       ->type_name("FILE");
-  command->add_flag("--layers", arguments->layers,
-                    "Add sample count, variance and error layers to EXR files, and features that were rendered");
+  command->add_flag(
+      "--layers", arguments->layers,
+      "Add sample count, variance, error and 95 % interval layers to EXR files, and features that were rendered");
   arguments->tone.add_to(*command);
   arguments->memory.add_to(*command);
   command->add_flag("--quiet", arguments->quiet, "Print errors and warnings only");

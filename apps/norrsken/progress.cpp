@@ -27,7 +27,7 @@ std::string coarse_duration(double seconds) {
   return seconds < 59.5 ? fmt::format("{:.{}f} s", seconds, seconds < 9.95 ? 1 : 0) : format_duration(seconds);
 }
 
-bool is_last(const RenderProgress& progress) { return progress.fraction >= 1 && progress.seconds_left == 0; }
+bool is_last(const RenderProgress& progress) { return progress.fraction >= 1; }
 
 }  // namespace
 

@@ -34,6 +34,8 @@ struct Arguments {
     options.seed = seed;
     return options;
   }
+  /// An error or a time says when to end.
+  bool is_open() const { return !target_error.empty() || !time.empty(); }
   Verbosity verbosity() const { return quiet ? Verbosity::quiet : json ? Verbosity::json : Verbosity::text; }
 };
 
@@ -83,17 +85,15 @@ nlohmann::ordered_json or_null(const std::optional<T>& value) {
 /// Samples of each pixel that are asked for; nothing if an error or a time says when to end.
 std::optional<int> sample_count(const Arguments& arguments, const SceneInfo& info) {
   if (const auto range = parse_samples(arguments.samples)) return static_cast<int>(range->count());
-  const bool is_open = !arguments.target_error.empty() || !arguments.time.empty();
-  return is_open && arguments.scene.spp == 0 ? std::nullopt : std::optional(info.samples_per_pixel);
+  return arguments.is_open() && arguments.scene.spp == 0 ? std::nullopt : std::optional(info.samples_per_pixel);
 }
 
 /// "64 samples per pixel", "at most 64 samples per pixel until the error is 1%".
 std::string end_text(const Arguments& arguments, const SceneInfo& info) {
-  const bool is_open = !arguments.target_error.empty() || !arguments.time.empty();
   std::vector<std::string> parts;
   if (const auto count = sample_count(arguments, info))
-    parts.push_back(fmt::format("{}{} per pixel{}", is_open ? "at most " : "", format_plural(*count, "sample"),
-                                arguments.adaptive ? " on average" : ""));
+    parts.push_back(fmt::format("{}{} per pixel{}", arguments.is_open() ? "at most " : "",
+                                format_plural(*count, "sample"), arguments.adaptive ? " on average" : ""));
   if (!arguments.target_error.empty()) parts.push_back("until the error is " + arguments.target_error);
   if (!arguments.time.empty()) parts.push_back("for " + arguments.time);
   return fmt::format("{}", fmt::join(parts, ", "));
@@ -216,7 +216,7 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
 
 ExitStatus replay(const Arguments& arguments) {
   if (!arguments.outputs.empty() || !arguments.checkpoint.empty() || !arguments.samples.empty() ||
-      !arguments.target_error.empty() || !arguments.time.empty() || arguments.adaptive)
+      arguments.is_open() || arguments.adaptive)
     throw Failure(ExitStatus::usage,
                   "--pixel prints one sample: -o, --checkpoint, --samples, --target-error, --time and --adaptive have "
                   "no place beside it");
@@ -228,7 +228,7 @@ ExitStatus render(Arguments arguments) {
   if (arguments.replay.wanted()) return replay(arguments);
   if (!arguments.samples.empty() && arguments.checkpoint.empty())
     throw Failure(ExitStatus::usage, "--samples needs --checkpoint FILE, which receives what 'norrsken merge' joins");
-  if (!arguments.samples.empty() && (!arguments.target_error.empty() || !arguments.time.empty() || arguments.adaptive))
+  if (!arguments.samples.empty() && (arguments.is_open() || arguments.adaptive))
     throw Failure(
         ExitStatus::usage,
         "--samples takes all samples of a range: --target-error, --time and --adaptive have no place beside it");

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "bsdf/bsdf_testing.h"
+#include "tests/statistics/case_name.h"
 #include "tests/statistics/random.h"
 
 namespace norrsken::isa_host {
@@ -116,11 +116,7 @@ class EveryBsdf : public ::testing::TestWithParam<BsdfCase> {
 class WhiteFurnace : public EveryBsdf {};
 
 inline std::string test_name(const ::testing::TestParamInfo<BsdfCase>& tested) {
-  std::string name = std::string(tested.param.plugin) + "_" + std::string(tested.param.name);
-  for (char& c : name) {
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  }
-  return name;
+  return statistics::case_name(tested.param.plugin, tested.param.name);
 }
 
 }  // namespace norrsken::isa_host

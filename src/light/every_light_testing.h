@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -16,6 +15,7 @@
 
 #include "light/light_testing.h"
 #include "light/lit_scene_testing.h"
+#include "tests/statistics/case_name.h"
 
 namespace norrsken::isa_host {
 
@@ -139,11 +139,7 @@ inline std::optional<double> distance_to_light(const LitScene& scene, const glm:
 class EveryLight : public ::testing::TestWithParam<LightCase> {};
 
 inline std::string light_test_name(const ::testing::TestParamInfo<LightCase>& tested) {
-  std::string name = std::string(tested.param.kind_name) + "_" + std::string(tested.param.name);
-  for (char& c : name) {
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  }
-  return name;
+  return statistics::case_name(tested.param.kind_name, tested.param.name);
 }
 
 }  // namespace norrsken::isa_host

@@ -66,16 +66,15 @@ std::string accelerator_for(const Scene& scene, const RenderOptions& options) {
 
 /// Scenes that name layers get them of as many samples as the image, others of the first few of all.
 SampleRange feature_range(const Scene& scene, const RenderOptions& options, SampleRange samples) {
-  const bool is_open = options.target_error > 0 || options.seconds > 0;
   if (needs_all_features(scene)) {
-    return is_open ? SampleRange{samples.first, samples.first + kOpenFeatureSamples} : samples;
+    return is_open(options) ? SampleRange{samples.first, samples.first + kOpenFeatureSamples} : samples;
   }
   if (!options.features) return {};
   return {std::min(samples.first, kFeatureSamples), std::min(samples.end, kFeatureSamples)};
 }
 
 SampleSchedule make_schedule(SampleRange samples, const RenderOptions& options) {
-  const bool is_bounded = options.samples_per_pixel || (options.target_error <= 0 && options.seconds <= 0);
+  const bool is_bounded = options.samples_per_pixel || !is_open(options);
   return SampleSchedule(options, is_bounded ? samples.count() : kMostSamples);
 }
 
@@ -261,8 +260,7 @@ std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& 
     diagnostics.error({}, fmt::format("target error is {}", options.target_error), "more than 0 and less than 1");
   }
   if (!(options.seconds >= 0)) diagnostics.error({}, fmt::format("time is {} s", options.seconds), "more than 0");
-  const bool by_steps = options.target_error > 0 || options.seconds > 0 || options.adaptive;
-  if (by_steps && options.samples) {
+  if (goes_by_steps(options) && options.samples) {
     diagnostics.error({}, "samples of a range are taken all",
                       "no range, or neither an error, nor a time, nor adaptivity");
   }

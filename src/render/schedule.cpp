@@ -44,10 +44,14 @@ SampleGoal SampleGoal::and_at_least(const TileProgress& samples) && {
 }
 
 SampleSchedule::SampleSchedule(const RenderOptions& options, std::uint32_t most)
-    : most_(most), target_error_(options.target_error), seconds_(options.seconds), adaptive_(options.adaptive) {}
+    : most_(most),
+      target_error_(options.target_error),
+      seconds_(options.seconds),
+      adaptive_(options.adaptive),
+      by_steps_(goes_by_steps(options)) {}
 
 SampleGoal SampleSchedule::first(const TileGrid& grid) const {
-  if (!by_steps()) return SampleGoal::uniform(grid, most_, false);
+  if (!by_steps_) return SampleGoal::uniform(grid, most_, false);
   // How long a sample takes is not known before there is one.
   return SampleGoal::uniform(grid, std::min(most_, seconds_ > 0 ? 1 : kBlock), true);
 }
@@ -81,7 +85,7 @@ std::uint32_t SampleSchedule::next_mean(const FilmError& error, std::uint32_t re
 
 std::optional<SampleGoal> SampleSchedule::next(const TileGrid& grid, const Film& film, const SampleGoal& reached,
                                                double seconds, double taken) const {
-  if (!by_steps() || reached.mean >= most_ || is_over(seconds)) return {};
+  if (!by_steps_ || reached.mean >= most_ || is_over(seconds)) return {};
   const FilmError error = target_error_ > 0 ? film.error({0, 0, film.width(), film.height()}) : FilmError{};
   const std::uint32_t mean = next_mean(error, reached.mean, seconds, taken);
   if (mean <= reached.mean) return {};
@@ -98,11 +102,11 @@ std::optional<SampleGoal> SampleSchedule::resume(const TileGrid& grid, const Sam
   const std::uint32_t done = progress.empty() ? 0 : *std::ranges::max_element(progress);
   // Time is only heeded when every pixel has a sample.
   if (seconds_ > 0 && std::ranges::find(progress, 0u) != progress.end()) return first(grid).and_at_least(progress);
-  if (by_steps() && stored.is_step && stored.mean <= most_) return stored;
+  if (by_steps_ && stored.is_step && stored.mean <= most_) return stored;
   if (done > most_) return {};
   // A rendering of a given number of samples may have been left far from its end.
   const std::uint32_t begun = std::min((done + kBlock - 1) / kBlock * kBlock, most_);
-  return by_steps() && done > 0 ? SampleGoal::uniform(grid, begun, true) : first(grid);
+  return by_steps_ && done > 0 ? SampleGoal::uniform(grid, begun, true) : first(grid);
 }
 
 Outlook SampleSchedule::outlook(double seconds, const RelativeError& error, double mean_samples, double taken) const {

@@ -35,6 +35,11 @@ struct Outlook {
   double fraction = 0, seconds_left = -1;
 };
 
+/// Whether an error or a time says when to end, rather than a number of samples.
+inline bool is_open(const RenderOptions& options) { return options.target_error > 0 || options.seconds > 0; }
+/// Whether a rendering goes from goal to goal.
+inline bool goes_by_steps(const RenderOptions& options) { return is_open(options) || options.adaptive; }
+
 class SampleSchedule {
  public:
   /// `most` samples per pixel, on average; the number to take if neither error nor time are given.
@@ -55,12 +60,11 @@ class SampleSchedule {
   Outlook outlook(double seconds, const RelativeError& error, double mean_samples, double taken) const;
 
  private:
-  bool by_steps() const { return target_error_ > 0 || seconds_ > 0 || adaptive_; }
   std::uint32_t next_mean(const FilmError& error, std::uint32_t reached, double seconds, double taken) const;
 
   std::uint32_t most_;
   double target_error_, seconds_;
-  bool adaptive_;
+  bool adaptive_, by_steps_;
 };
 
 /// Neyman's allocation (1934; Cochran, Sampling Techniques, 5.5) of more samples: a tile gets as many as the standard
