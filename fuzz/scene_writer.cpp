@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace norrsken::fuzz {
 namespace {
 
@@ -404,8 +406,9 @@ class SceneWriter {
       word("fov_axis", {"x", "y", "diagonal", "smaller", "larger"});
     }
     if (kind == 2) {
-      value("float", "aperture_radius", fmt::format("{:.9g}", c_.number(1e-6, kHuge)));
-      number("focus_distance", 1e-3, kHuge);
+      const double focus = c_.number(1e-3, kHuge);
+      value("float", "aperture_radius", fmt::format("{:.9g}", c_.number(1e-6, std::min(kHuge, 9999 * focus))));
+      value("float", "focus_distance", fmt::format("{:.9g}", focus));
     }
     if (c_.below(4) == 0) value("float", "near_clip", "0.5");
     sampler();

@@ -8,6 +8,8 @@
 #include <new>
 #include <system_error>
 
+#include "base/memory.h"
+
 namespace norrsken {
 namespace {
 
@@ -67,12 +69,16 @@ RegularFile open_regular_file(const std::string& path) {
   return file;
 }
 
-std::optional<std::string> read_regular_file(const std::string& path, std::string& error) {
+std::optional<std::string> read_regular_file(const std::string& path, std::string& error, std::uint64_t most_bytes) {
   const RegularFile file = open_regular_file(path);
   error = file.error;
   if (!file.descriptor) return std::nullopt;
   if (file.bytes > kMaxFileBytes) {
     error = kTooLarge;
+    return std::nullopt;
+  }
+  if (file.bytes > most_bytes) {
+    error = "has " + memory_text(file.bytes) + ", and " + memory_text(most_bytes) + " of memory are left";
     return std::nullopt;
   }
   try {

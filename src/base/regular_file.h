@@ -42,7 +42,9 @@ RegularFile open_regular_file(const std::string& path);
 /// Of what is read in one piece.
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
 
-/// The whole file, or empty with `error` set. Files above kMaxFileBytes are refused.
-std::optional<std::string> read_regular_file(const std::string& path, std::string& error);
+/// The whole file, or empty with `error` set. Files above kMaxFileBytes are refused, and those of more than `most_bytes`,
+/// which are what there is memory for.
+std::optional<std::string> read_regular_file(const std::string& path, std::string& error,
+                                             std::uint64_t most_bytes = kMaxFileBytes);
 
 }  // namespace norrsken

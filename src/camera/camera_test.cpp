@@ -121,6 +121,9 @@ TEST(Cameras, ThinLensNeedsALens) {
                           "[<float name=\"aperture_radius\" value=\"...\"/>]"));
   EXPECT_THAT(compile("thinlens", number("aperture_radius", "0")).messages(),
               ElementsAre("error: 'aperture_radius' is 0 [a number above 0]"));
+  EXPECT_THAT(compile("thinlens", number("aperture_radius", "30") + number("focus_distance", "0.001")).messages(),
+              ElementsAre("error: 'aperture_radius' is 30000 times 'focus_distance' "
+                          "[an aperture_radius of at most 10000 times focus_distance, here 10]"));
   EXPECT_THAT(compile("thinlens", number("aperture_radius", "1") + number("focus_distance", "-1")).messages(),
               ElementsAre("error: 'focus_distance' is -1 [a number above 0]"));
   EXPECT_THAT(compile("thinlens", number("aperture_radius", "1") + number("aperture", "2")).messages(),

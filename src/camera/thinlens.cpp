@@ -1,7 +1,7 @@
 // thinlens: a perspective camera with a lens, out of focus where the scene is nearer or farther than its plane of focus.
 //
 // Parameters
-//   aperture_radius      number above 0, scene units, required: the lens's radius
+//   aperture_radius      number above 0, scene units, required: the lens's radius, at most 10000 times focus_distance
 //   focus_distance       number above 0, scene units along the axis (default: far_clip): where the picture is sharp
 //   fov, focal_length, fov_axis, near_clip, far_clip, to_world  as for `perspective`
 // Children: film, sampler.
@@ -17,6 +17,12 @@
 #include "compile/plugins.h"
 
 namespace norrsken {
+namespace {
+
+/// Radii of a lens per distance of focus. Beyond, rays are so nearly across the axis that float loses where they lead.
+constexpr double kMaxRadius = 1e4;
+
+}  // namespace
 
 CameraRecord compile_sensor_thinlens(Parameters& p, Builder& builder, const FilmSettings& film) {
   CameraRecord camera{};
@@ -30,6 +36,11 @@ CameraRecord compile_sensor_thinlens(Parameters& p, Builder& builder, const Film
   }
   const double focus =
       p.number("focus_distance", static_cast<double>(camera.far_clip), 0, kMaxCoordinate, Ends::open_below);
+  if (p.has("aperture_radius") && radius > kMaxRadius * focus) {
+    p.error("aperture_radius", fmt::format("'aperture_radius' is {:g} times 'focus_distance'", radius / focus),
+            fmt::format("an aperture_radius of at most {:g} times focus_distance, here {:g}", kMaxRadius,
+                        kMaxRadius * focus));
+  }
   const CameraFrame frame = read_rigid_frame(p);
   store(camera.origin, frame.origin);
   store(camera.forward, frame.forward);

@@ -64,7 +64,7 @@ std::optional<StoredImage> ImageStore::read(const std::string& path, bool raw, c
   TexelImage image;
   error = read_texels(path, contents->bytes, image);
   contents.reset();
-  if (!error.empty()) return refuse(error, "a PNG, JPEG, BMP, TGA, EXR or HDR file");
+  if (!error.empty()) return refuse(error, "a PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR file");
 
   auto& texels = tables_.texels;
   const auto channels = static_cast<std::size_t>(image.channels);

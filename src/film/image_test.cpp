@@ -300,6 +300,13 @@ TEST_F(ImageFileTest, ReadRefusesForgedSizesBeforeAllocating) {
   EXPECT_THAT(status.error, HasSubstr("100000x100000 pixels"));
 }
 
+TEST_F(ImageFileTest, ReadLooksAtTheSizeOfTheFileFirst) {
+  std::ofstream(path("large.png")) << std::string(3 << 20, 'x');
+  Image image;
+  EXPECT_EQ(read_image(path("large.png"), image, 2 << 20).error,
+            "cannot read '" + path("large.png") + "': it has 3.00 MiB, and 2.00 MiB of memory are left");
+}
+
 TEST_F(ImageFileTest, ReadDecodesGreyFromSrgb) {
   std::ofstream(path("grey.pgm"), std::ios::binary) << "P5\n2 1\n255\n" << char(128) << char(255);
   Image image;

@@ -1,5 +1,4 @@
 #include "formats/texel_image.h"
-#include "formats/exr_header.h"
 
 #include <gtest/gtest.h>
 
@@ -106,22 +105,6 @@ TEST(TexelImage, BadFilesAreRefused) {
   EXPECT_NE(read_texels("a.exr", "", image), "");
   EXPECT_NE(read_texels("a", "x", image), "");
   EXPECT_EQ(image.width, 0) << "changed on success only";
-}
-
-TEST(ExrHeader, AttributesAreNoLongerThanTheFile) {
-  using namespace std::string_literals;
-  const std::string start = "\x76\x2f\x31\x01\x02\0\0\0"s;
-  const auto attribute = [](const std::string& size) { return "a\0string\0"s + size + "xyz"; };
-  EXPECT_TRUE(exr_attributes_fit(start + attribute("\3\0\0\0"s) + '\0'));
-  EXPECT_FALSE(exr_attributes_fit(start + attribute("\4\0\0\0"s)));
-  EXPECT_FALSE(exr_attributes_fit(start + attribute("\0\0\0\x70"s) + '\0'));
-  EXPECT_FALSE(exr_attributes_fit(start + attribute("\xff\xff\xff\xff"s) + '\0'));
-  EXPECT_FALSE(exr_attributes_fit(start + "a"));
-  EXPECT_FALSE(exr_attributes_fit(start)) << "the header does not end";
-  // Of a file of several parts the second header counts as well.
-  const std::string parts = "\x76\x2f\x31\x01\x02\x10\0\0"s + attribute("\3\0\0\0"s) + '\0';
-  EXPECT_TRUE(exr_attributes_fit(parts + attribute("\3\0\0\0"s) + "\0\0"s));
-  EXPECT_FALSE(exr_attributes_fit(parts + attribute("\0\0\0\x70"s) + "\0\0"s));
 }
 
 TEST(TexelImage, HeadersThatPromiseMoreThanTheFileHoldsAreNotBelieved) {

@@ -1,7 +1,7 @@
 // envmap: an image in latitude-longitude format around the scene.
 //
 // Parameters
-//   filename          string (required): PNG, JPEG, BMP, TGA, EXR or HDR, at least 2 x 3 pixels
+//   filename          string (required): PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR, at least 2 x 3 pixels
 //   scale             number, at least 0 (default 1): factor on the image's radiance
 //   to_world          transform that keeps shapes (default identity). The local y axis is up, where the image's first
 //                     row is; its middle column is at -z, and columns to the right of it are towards +x

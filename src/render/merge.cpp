@@ -51,6 +51,11 @@ std::string complaint_about(const Part& part) {
   if (film_bytes(stored.form) > part.reader->file_bytes()) {
     return part.name() + " says that its film is larger than the file";
   }
+  if (std::ranges::any_of(stored.goal.of_tile, [&](std::uint32_t goal) { return goal != stored.samples.count(); })) {
+    return part.name() +
+           " is of an adaptive rendering, whose tiles have different numbers of samples: only even ones "
+           "can be merged";
+  }
   const auto all = [](const TileProgress& progress, SampleRange range) {
     return std::ranges::all_of(progress, [&](std::uint32_t done) { return done == range.count(); });
   };

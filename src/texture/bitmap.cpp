@@ -1,7 +1,7 @@
 // bitmap: host side.
 //
 // Parameters
-//   filename     string (required): PNG, JPEG, BMP, TGA, EXR or HDR
+//   filename     string (required): PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR
 //   filter_type  bilinear (default) or nearest
 //   wrap_mode    repeat (default), mirror or clamp
 //   raw          boolean (default false): the numbers as they are stored, such as directions and heights. Otherwise

@@ -98,7 +98,7 @@ TEST(BitmapHost, RefusesWhatItCannotRead) {
               ElementsAre("error: there is no file 'none.png' [a file in the current folder]"));
   EXPECT_THAT(compile_texture(bitmap(R"(<string name="filename" value="broken.png"/>)")).messages(),
               ElementsAre("error: cannot read the image 'broken.png': unknown or damaged image file "
-                          "[a PNG, JPEG, BMP, TGA, EXR or HDR file]"));
+                          "[a PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR file]"));
   EXPECT_THAT(compile_texture(bitmap(kFile + R"(<string name="wrap_mode" value="miror"/>)")).messages(),
               ElementsAre("error: 'wrap_mode' is 'miror', did you mean 'mirror'? [repeat, mirror, clamp]"));
   EXPECT_THAT(compile_texture(bitmap(kFile + R"(<string name="filter_type" value="cubic"/>)")).messages(),

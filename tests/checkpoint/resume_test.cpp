@@ -380,5 +380,16 @@ TEST_F(Merging, RefusesWhatIsNotFinished) {
             "'long' is not finished: it lacks some of its samples 0 to 999999; run its command again");
 }
 
+TEST_F(Merging, RefusesWhatIsUneven) {
+  RenderOptions adaptive = options();
+  adaptive.adaptive = true;
+  adaptive.samples_per_pixel = 64;
+  adaptive.checkpoint = folder_.file("adaptive");
+  run_for(room({.parameters = {}, .width = 160, .height = 120}), adaptive, std::chrono::hours(1));
+  EXPECT_EQ(complaint({adaptive.checkpoint}),
+            "'adaptive' is of an adaptive rendering, whose tiles have different numbers of samples: only even ones can be "
+            "merged");
+}
+
 }  // namespace
 }  // namespace norrsken::end_to_end

@@ -29,6 +29,8 @@ struct Complaint {
 struct Input {
   const char* name;
   const char* element;  ///< in a scene, with % for the file's name; empty for inputs that no scene names
+
+  friend void PrintTo(const Input& input, std::ostream* out) { *out << input.name; }
 };
 
 const Input kInputs[] = {
@@ -54,6 +56,8 @@ struct Hostile {
   const char* name;
   const char* path;  ///< in the test's folder unless it begins with a slash
   const char* said;
+
+  friend void PrintTo(const Hostile& hostile, std::ostream* out) { *out << hostile.path; }
 };
 
 const Hostile kHostile[] = {

@@ -163,6 +163,12 @@ inline constexpr Family kSuite[] = {
     {"CompareZTest.ASmallBiasShowsInTheMeans", 3},
     {"SdfGrid.LightsWhatIsAround", 1},
     {"Judging.AcceptsUnbiasedDataAtTheNominalRate", 2},
+    {"Direct.DirectionsAreIndependentOfTheChosenLobe", 2},
+    {"Direct.DirectionsAreIndependentOfRoulette", 2},
+    {"Direct.SamplesDivideTheVariance", 3},
+    {"ReportedVariance.IsThatOfImagesOfDifferentSeeds", 1, 2},
+    {"LightPathsError.IsThatOfImagesOfDifferentSeeds", 2},
+    {"FilterError.IsThatOfImagesOfDifferentSeeds", 1, 6},
     {"WhiteFurnace.ReturnsWhatItSays", kBsdfViews, kBsdfFurnaces},
 };
 

@@ -1,0 +1,26 @@
+// How much light a rough dielectric coat lets through and holds back: what roughplastic is tabulated from.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bsdf/bsdf.h"
+#include "bsdf/microfacet.h"
+
+namespace norrsken {
+
+struct RoughCoat {
+  std::vector<double> transmittances;  ///< from outside, for cosines evenly from 0 to 1
+  double from_inside;                  ///< reflectance for diffuse light from below
+};
+
+/// Integrates over the normals that are visible, as roughplastic.h samples them; facets that others mask absorb.
+/// `eta`: index of refraction inside over that outside, not 1. Within 1e-3 of the integrals where it is above 1, within 6e-3
+/// below, where total reflection has an edge. Up to 20 ms.
+RoughCoat integrate_rough_coat(const isa_host::Microfacet& facets, double eta, std::uint32_t cosines);
+
+/// The same, for the price of a look if this thread has lately been asked for it: scenes use the same few coats for many
+/// materials, and are loaded again with other parameters.
+RoughCoat rough_coat(double alpha, bool ggx, double eta, std::uint32_t cosines);
+
+}  // namespace norrsken

@@ -1,0 +1,140 @@
+// Layout: "OpenEXR File Layout", openexr.com, sections "Header", "Multi-part files" and "Predefined Attribute Types".
+#include "formats/exr_header.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <optional>
+
+namespace norrsken {
+namespace {
+
+/// Bytes that have not been looked at. What takes more than there are takes nothing.
+class Bytes {
+ public:
+  explicit Bytes(std::string_view bytes) : left_(bytes) {}
+
+  bool empty() const { return left_.empty(); }
+  std::size_t size() const { return left_.size(); }
+  char front() const { return left_.front(); }
+
+  std::optional<std::string_view> take(std::size_t count) {
+    if (count > left_.size()) return std::nullopt;
+    const std::string_view taken = left_.substr(0, count);
+    left_.remove_prefix(count);
+    return taken;
+  }
+  /// A text and the zero that ends it.
+  std::optional<std::string_view> take_word() {
+    const std::size_t end = left_.find('\0');
+    if (end == std::string_view::npos) return std::nullopt;
+    const std::string_view word = left_.substr(0, end);
+    left_.remove_prefix(end + 1);
+    return word;
+  }
+  std::optional<std::int32_t> take_int() {
+    std::int32_t value = 0;
+    const auto bytes = take(sizeof value);
+    if (!bytes) return std::nullopt;
+    std::memcpy(&value, bytes->data(), sizeof value);
+    return value;
+  }
+
+ private:
+  std::string_view left_;
+};
+
+struct FixedSize {
+  std::string_view type;
+  std::size_t bytes;
+};
+constexpr FixedSize kFixedSizes[] = {{"box2f", 16},
+                                     {"box2i", 16},
+                                     {"chromaticities", 32},
+                                     {"compression", 1},
+                                     {"deepImageState", 1},
+                                     {"double", 8},
+                                     {"envmap", 1},
+                                     {"float", 4},
+                                     {"int", 4},
+                                     {"keycode", 28},
+                                     {"lineOrder", 1},
+                                     {"m33d", 72},
+                                     {"m33f", 36},
+                                     {"m44d", 128},
+                                     {"m44f", 64},
+                                     {"rational", 8},
+                                     {"tiledesc", 9},
+                                     {"timecode", 8},
+                                     {"v2d", 16},
+                                     {"v2f", 8},
+                                     {"v2i", 8},
+                                     {"v3d", 24},
+                                     {"v3f", 12},
+                                     {"v3i", 12}};
+
+/// Channels, each a name and 16 bytes, up to one without a name.
+bool is_channel_list(Bytes value) {
+  constexpr std::size_t kChannelBytes = 16;
+  for (;;) {
+    const auto name = value.take_word();
+    if (!name) return false;
+    if (name->empty()) return value.empty();
+    if (!value.take(kChannelBytes)) return false;
+  }
+}
+
+/// Width, height, and four bytes for each pixel.
+bool is_preview(Bytes value) {
+  const auto width = value.take_int(), height = value.take_int();
+  if (!width || !height || *width < 0 || *height < 0) return false;
+  return value.size() % 4 == 0 && std::uint64_t(*width) * std::uint64_t(*height) == value.size() / 4;
+}
+
+/// Texts, each behind its length.
+bool is_string_vector(Bytes value) {
+  while (!value.empty()) {
+    const auto length = value.take_int();
+    if (!length || *length < 0 || !value.take(static_cast<std::size_t>(*length))) return false;
+  }
+  return true;
+}
+
+bool fits(std::string_view type, std::string_view value) {
+  const auto* fixed = std::ranges::find(kFixedSizes, type, &FixedSize::type);
+  if (fixed != std::end(kFixedSizes)) return value.size() == fixed->bytes;
+  if (type == "chlist") return is_channel_list(Bytes(value));
+  if (type == "preview") return is_preview(Bytes(value));
+  if (type == "stringvector") return is_string_vector(Bytes(value));
+  if (type == "floatvector") return value.size() % sizeof(float) == 0;
+  return true;  // read by their size: texts, and types that the library does not know
+}
+
+}  // namespace
+
+bool exr_attributes_fit(std::string_view file) {
+  constexpr std::int32_t kMultipart = 0x1000;
+  Bytes bytes(file);
+  const auto magic = bytes.take_int(), version = bytes.take_int();
+  if (!magic || !version) return false;
+  // A header ends with an empty name, the headers of several parts with an empty header.
+  for (bool begins = true; !bytes.empty();) {
+    if (bytes.front() == '\0') {
+      if (begins || (*version & kMultipart) == 0) return true;
+      begins = true;
+      bytes.take(1);
+      continue;
+    }
+    begins = false;
+    if (!bytes.take_word()) return false;
+    const auto type = bytes.take_word();
+    const auto size = bytes.take_int();
+    if (!type || !size || *size < 0) return false;
+    const auto value = bytes.take(static_cast<std::size_t>(*size));
+    if (!value || !fits(*type, *value)) return false;
+  }
+  return false;
+}
+
+}  // namespace norrsken

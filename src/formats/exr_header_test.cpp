@@ -1,0 +1,71 @@
+#include "formats/exr_header.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace norrsken {
+namespace {
+
+using namespace std::string_literals;
+
+const std::string kStart = "\x76\x2f\x31\x01\x02\0\0\0"s;
+
+std::string attribute(const std::string& size, const std::string& type = "string", const std::string& value = "xyz") {
+  return "a\0"s + type + '\0' + size + value;
+}
+
+/// Whether a header with this attribute, and a text behind it, fits.
+bool fits(const std::string& type, const std::string& value) {
+  const std::string size{static_cast<char>(value.size()), 0, 0, 0};
+  return exr_attributes_fit(kStart + attribute(size, type, value) + attribute("\3\0\0\0"s) + '\0');
+}
+
+TEST(ExrHeader, AttributesAreNoLongerThanTheFile) {
+  EXPECT_TRUE(exr_attributes_fit(kStart + attribute("\3\0\0\0"s) + '\0'));
+  EXPECT_FALSE(exr_attributes_fit(kStart + attribute("\4\0\0\0"s)));
+  EXPECT_FALSE(exr_attributes_fit(kStart + attribute("\0\0\0\x70"s) + '\0'));
+  EXPECT_FALSE(exr_attributes_fit(kStart + attribute("\xff\xff\xff\xff"s) + '\0'));
+  EXPECT_FALSE(exr_attributes_fit(kStart + "a"));
+  EXPECT_FALSE(exr_attributes_fit(kStart)) << "the header does not end";
+  EXPECT_FALSE(exr_attributes_fit("v/1"));
+  // Of a file of several parts the second header counts as well.
+  const std::string parts = "\x76\x2f\x31\x01\x02\x10\0\0"s + attribute("\3\0\0\0"s) + '\0';
+  EXPECT_TRUE(exr_attributes_fit(parts + attribute("\3\0\0\0"s) + "\0\0"s));
+  EXPECT_FALSE(exr_attributes_fit(parts + attribute("\0\0\0\x70"s) + "\0\0"s));
+}
+
+TEST(ExrHeader, TypesOfOneSizeHaveThatSize) {
+  EXPECT_TRUE(fits("box2i", std::string(16, 'x')));
+  EXPECT_FALSE(fits("box2i", std::string(15, 'x')));
+  EXPECT_FALSE(fits("box2i", std::string(17, 'x')));
+  EXPECT_TRUE(fits("compression", "x"));
+  EXPECT_FALSE(fits("compression", ""));
+  EXPECT_TRUE(fits("tiledesc", std::string(9, 'x')));
+  EXPECT_FALSE(fits("tiledesc", std::string(8, 'x')));
+  EXPECT_TRUE(fits("floatvector", std::string(8, 'x')));
+  EXPECT_FALSE(fits("floatvector", std::string(7, 'x')));
+  EXPECT_TRUE(fits("unheard_of", std::string(7, 'x')));
+}
+
+TEST(ExrHeader, ListsEndWhereTheirAttributeEnds) {
+  const std::string channel = "R\0"s + std::string(16, 'x');
+  EXPECT_TRUE(fits("chlist", channel + channel + '\0'));
+  EXPECT_TRUE(fits("chlist", "\0"s));
+  EXPECT_FALSE(fits("chlist", channel)) << "read on to what follows";
+  EXPECT_FALSE(fits("chlist", channel + '\0' + channel));
+  EXPECT_FALSE(fits("chlist", "R\0xxx"s));
+
+  EXPECT_TRUE(fits("preview", "\2\0\0\0\1\0\0\0"s + std::string(8, 'x')));
+  EXPECT_FALSE(fits("preview", "\2\0\0\0\2\0\0\0"s + std::string(8, 'x')));
+  EXPECT_FALSE(fits("preview", "\0\0\0\x80\0\0\0\x80"s));
+  EXPECT_FALSE(fits("preview", "\2\0\0\0"s));
+
+  EXPECT_TRUE(fits("stringvector", "\1\0\0\0a\2\0\0\0bc"s));
+  EXPECT_TRUE(fits("stringvector", ""));
+  EXPECT_FALSE(fits("stringvector", "\1\0\0\0a\3\0\0\0bc"s));
+  EXPECT_FALSE(fits("stringvector", "\xff\xff\xff\xff"s));
+}
+
+}  // namespace
+}  // namespace norrsken
