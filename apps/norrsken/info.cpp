@@ -100,7 +100,9 @@ void print_as_text(const std::string& scene, const SceneInfo& info) {
 }
 
 ExitStatus tell(const Arguments& arguments) {
-  const SceneInfo info = load_scene(arguments.scene.scene, arguments.scene.load_options()).info();
+  LoadOptions options = arguments.scene.load_options();
+  options.reserve_film = false;
+  const SceneInfo info = load_scene(arguments.scene.scene, options).info();
   arguments.json ? print_as_json(arguments.scene.scene, info) : print_as_text(arguments.scene.scene, info);
   return ExitStatus::done;
 }

@@ -220,7 +220,9 @@ ExitStatus replay(const Arguments& arguments) {
     throw Failure(ExitStatus::usage,
                   "--pixel prints one sample: -o, --checkpoint, --samples, --target-error, --time and --adaptive have "
                   "no place beside it");
-  const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet);
+  LoadOptions options = arguments.scene.load_options();
+  options.reserve_film = false;
+  const Scene scene = load_scene(arguments.scene.scene, options, !arguments.quiet);
   return replay(scene, arguments.sampling(), arguments.replay, arguments.json);
 }
 

@@ -26,6 +26,8 @@ struct LoadOptions {
   std::optional<int> samples_per_pixel = {};
   /// For loading and for what is rendered of the scene. Empty: MemoryBudget::of_machine().
   std::shared_ptr<MemoryBudget> memory = {};
+  /// Whether there has to be memory for the film and its image, too. Not to be told of a scene, or to replay a sample.
+  bool reserve_film = true;
 };
 
 /// What `norrsken info` tells.

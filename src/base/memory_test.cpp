@@ -34,6 +34,7 @@ TEST(MemoryBudget, IsExactWithManyThreads) {
   std::atomic<int> taken{0};
   {
     std::vector<std::jthread> threads;
+    threads.reserve(4);
     for (int t = 0; t < 4; ++t) {
       threads.emplace_back([&] {
         for (int i = 0; i < 10000; ++i) {

@@ -53,19 +53,23 @@ RegularFile open_regular_file(const std::string& path) {
     file.error = "not a file name";
     return file;
   }
-  // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever; the check below then refuses it.
-  FileDescriptor opened(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
   struct stat status {};
-  if (!opened || ::fstat(opened.get(), &status) != 0) {
-    // Sockets and some devices cannot be opened at all.
-    file.error = errno == ENXIO ? kNotRegular : system_message(errno);
-    file.is_missing = errno == ENOENT;
-  } else if (!S_ISREG(status.st_mode)) {
-    file.error = S_ISDIR(status.st_mode) ? "is a folder" : kNotRegular;
-  } else {
-    file.bytes = static_cast<std::uint64_t>(status.st_size);
-    file.descriptor = std::move(opened);
-  }
+  const auto is_regular = [&](int failed) {
+    if (failed != 0) {
+      file.error = system_message(errno);
+      file.is_missing = errno == ENOENT;
+    } else if (!S_ISREG(status.st_mode)) {
+      file.error = S_ISDIR(status.st_mode) ? "is a folder" : kNotRegular;
+    }
+    return file.error.empty();
+  };
+  // Looked at before it is opened, which is enough to make some devices act, and after, when the name may lead elsewhere.
+  if (!is_regular(::stat(path.c_str(), &status))) return file;
+  // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever.
+  FileDescriptor opened(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+  if (!is_regular(opened ? ::fstat(opened.get(), &status) : -1)) return file;
+  file.bytes = static_cast<std::uint64_t>(status.st_size);
+  file.descriptor = std::move(opened);
   return file;
 }
 

@@ -148,8 +148,8 @@ class Builder {
   void override_samples_per_pixel(const LoadOptions& options);
   /// `place`: where the film's size comes from.
   FilmSettings film(Parameters& sensor, const LoadOptions& options, SourceLocation& place);
-  /// Keeps the memory of film and image free while the scene is loaded.
-  void reserve_film(const SourceLocation& place);
+  /// How much memory film and image take; `reserve`: which stays free for them while the scene is loaded.
+  void measure_film(const SourceLocation& place, bool reserve);
   void compile_shape(const Node& node);
   void compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compile)(Parameters&, Builder&));
   Material material_of(Parameters& shape);

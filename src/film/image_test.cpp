@@ -243,6 +243,7 @@ TEST_F(ImageFileTest, AFullDiskKeepsTheOldFile) {
   const rlimit limit{5000, old_limit.rlim_max};
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
   std::vector<IoStatus> statuses;
+  statuses.reserve(names.size());
   for (const std::string& name : names) statuses.push_back(write_image(path(name), image));
   setrlimit(RLIMIT_FSIZE, &old_limit);
   std::signal(SIGXFSZ, old_handler);
@@ -281,7 +282,7 @@ TEST_F(ImageFileTest, ReadRefusesDamagedFilesAndKeepsTheImage) {
   fs::copy_file(path("whole.exr"), path("half.exr"));
   fs::resize_file(path("half.exr"), fs::file_size(path("whole.exr")) / 2);
   std::ofstream(path("text.png")) << "this is not a picture";
-  std::ofstream(path("empty.png"));
+  std::ofstream(path("empty.png")) << "";
   std::ofstream(path("noextension")) << "neither";
   Image image = made_up_image(2, 2);
   for (const char* name : {"half.exr", "text.png", "empty.png", "noextension"}) {

@@ -23,7 +23,8 @@ namespace {
 
 using namespace norrsken;
 
-constexpr int kRowsAtATime = 64;
+constexpr std::int64_t kRowsAtATime = 64;
+constexpr std::int64_t kValuesAtATime = 1 << 18;
 
 using Input = std::unique_ptr<OIIO::ImageInput>;
 
@@ -63,16 +64,24 @@ bool may_hold(const OIIO::ImageInput& input, std::size_t file_bytes) {
   return !bounded || spec.image_pixels() / (std::size_t{8} * 1032) <= file_bytes;
 }
 
+/// Whole tiles, and so many rows of a narrow image that calls are few: each may cost tens of megabytes.
+int rows_at_a_time(const OIIO::ImageSpec& spec) {
+  const std::int64_t row_values = std::int64_t{spec.nchannels} * spec.width;
+  const std::int64_t tile = std::max(spec.tile_height, 1);
+  const std::int64_t rows = std::max(kRowsAtATime, kValuesAtATime / row_values);
+  return static_cast<int>(std::min<std::int64_t>((rows + tile - 1) / tile * tile, spec.height));
+}
+
 /// Hands the image to `use(values)` in blocks of rows, all channels one behind the other. Empty, or what is
 /// wrong with the file.
 template <class T, class Use>
 std::string for_each_block(OIIO::ImageInput& input, OIIO::TypeDesc type, const Use& use) {
   const OIIO::ImageSpec& spec = input.spec();
-  const int rows_at_a_time = spec.tile_height > 0 ? spec.tile_height : kRowsAtATime;
+  const int step = rows_at_a_time(spec);
   const std::size_t row_values = static_cast<std::size_t>(spec.nchannels) * static_cast<std::size_t>(spec.width);
-  std::vector<T> block(row_values * static_cast<std::size_t>(std::min(rows_at_a_time, spec.height)));
-  for (int row = 0; row < spec.height; row += rows_at_a_time) {
-    const int rows = std::min(rows_at_a_time, spec.height - row), begin = spec.y + row;
+  std::vector<T> block(row_values * static_cast<std::size_t>(step));
+  for (int row = 0; row < spec.height; row += step) {
+    const int rows = std::min(step, spec.height - row), begin = spec.y + row;
     const bool success = spec.tile_height > 0 ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, begin + rows,
                                                                  0, 1, 0, spec.nchannels, type, block.data())
                                               : input.read_scanlines(0, 0, begin, begin + rows, 0, 0, spec.nchannels,

@@ -201,7 +201,7 @@ TEST(ObjErrors, NothingToSee) {
   EXPECT_EQ(complaints("v 0 0 0\n"), expected);
   EXPECT_EQ(complaints(std::string("\x7F"
                                    "ELF\0\0\xFF\n\xFE",
-                                   10)),
+                                   9)),
             expected);
 }
 

@@ -63,10 +63,10 @@ TEST(Vol, ReadsSeveralChannelsAndSkipsWhatIsBehind) {
 }
 
 TEST(Vol, RefusesOtherFiles) {
-  const std::string kNone = "a.vol: error: this is no volume file\naccepted: a file that begins with VOL";
-  EXPECT_EQ(complaints(""), kNone);
-  EXPECT_EQ(complaints("VO"), kNone);
-  EXPECT_EQ(complaints(file({.magic = "VDB"}, kSix)), kNone);
+  const std::string none = "a.vol: error: this is no volume file\naccepted: a file that begins with VOL";
+  EXPECT_EQ(complaints(""), none);
+  EXPECT_EQ(complaints("VO"), none);
+  EXPECT_EQ(complaints(file({.magic = "VDB"}, kSix)), none);
   EXPECT_EQ(complaints(file({.version = 2}, kSix)), "a.vol: error: version 2\naccepted: 3");
   EXPECT_EQ(complaints(file({.version = '\xff'}, kSix)), "a.vol: error: version 255\naccepted: 3");
   EXPECT_EQ(complaints(0, 2), "a.vol: error: encoding 2\naccepted: 1, for 32-bit floats");
