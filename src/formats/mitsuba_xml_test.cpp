@@ -299,23 +299,23 @@ TEST(HostileXml, ParametersThatMultiplyAreBounded) {
 
 TEST(HostileXml, ThousandsOfErrorsAreCutShortQuickly) {
 #ifdef NORRSKEN_SANITIZED
-  constexpr int kSeconds = 200;
+  constexpr int kLess = 10;
 #else
-  constexpr int kSeconds = 20;
+  constexpr int kLess = 1;
 #endif
   // Of the processor's time: other tests run beside this one.
   const std::clock_t start = std::clock();
   Diagnostics diagnostics;
-  read_scene("<scene version=\"3.0.0\">" + repeat("<bsfd/>", 300000) + "</scene>", {}, diagnostics);
+  read_scene("<scene version=\"3.0.0\">" + repeat("<bsfd/>", 300000 / kLess) + "</scene>", {}, diagnostics);
   EXPECT_LE(diagnostics.all().size(), 101u);
   std::string refs = "<scene version=\"3.0.0\">";
-  for (int i = 0; i < 50000; ++i)
+  for (int i = 0; i < 50000 / kLess; ++i)
     refs += "<bsdf type=\"a\" id=\"id" + std::to_string(i) + "\"/><ref id=\"missing" + std::to_string(i) + "\"/>";
   Diagnostics more;
   read_scene(refs + "</scene>", {}, more);
   EXPECT_LE(more.all().size(), 101u);
   EXPECT_GT(more.error_count(), 10);
-  EXPECT_LT((std::clock() - start) / CLOCKS_PER_SEC, kSeconds);
+  EXPECT_LT((std::clock() - start) / CLOCKS_PER_SEC, 20);
 }
 
 TEST(HostileXml, BytesThatAreNoTextAreNamed) {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cfloat>
 #include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
@@ -194,7 +195,7 @@ LightBounds analytic_bounds(const AnalyticRecord& shape) {
   const float* m = shape.place.world_from_local;
   glm::dvec3 center, half, z;
   for (int i = 0; i < 3; ++i) {
-    const float* row = m + 4 * i;
+    const float* row = m + std::ptrdiff_t{4} * i;
     center[i] = double{row[3]} + double{row[2]} / 2;
     half[i] = std::abs(double{row[0]}) + std::abs(double{row[1]}) + std::abs(double{row[2]}) / 2;
     z[i] = shape.place.local_from_world[8 + i];

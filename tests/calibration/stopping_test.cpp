@@ -47,7 +47,7 @@ float even_samples(const Image& image) {
 
 TEST(TargetError, IsReachedByWholeBlocksAndNotOverdone) {
   for (const char* sampler : {"independent", "sobol"}) {
-    const Scene scene = room(160, sampler);
+    const Scene scene = room(80, sampler);
     const Outcome outcome = render(scene, {.target_error = 0.15, .threads = kThreads});
     EXPECT_FALSE(outcome.statistics.cancelled);
     EXPECT_LE(outcome.statistics.error.high, 0.15);
