@@ -245,9 +245,12 @@ void SceneArguments::add_to(CLI::App& command) {
       ->take_all()
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
-  command.add_option("--integrator", integrator, "Integrator in place of the scene's: path, direct, whitted")
+  command.add_option("--integrator", integrator, "Integrator in place of the scene's: path, direct, whitted, ptracer")
       ->type_name("NAME");
-  command.add_option("--sampler", sampler, "Sampler in place of the scene's: sobol, independent")->type_name("NAME");
+  command
+      .add_option("--sampler", sampler,
+                  "Sampler in place of the scene's: sobol, independent, stratified, multijitter, ldsampler, orthogonal")
+      ->type_name("NAME");
   command.add_option("--size", size, "Image size in pixels in place of the scene's")
       ->check(image_size())
       ->type_name("WxH");

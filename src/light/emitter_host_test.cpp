@@ -301,9 +301,9 @@ TEST(TexturedAreaEmitter, TrianglesOfOtherMapsStayApart) {
     EXPECT_THAT(c.messages(), IsEmpty());
     return c.tables().lights.size();
   };
-  const char* kMapped = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
-  EXPECT_EQ(lights("vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n", kMapped), 1u);
-  EXPECT_EQ(lights("vt 0 0\nvt 1 0\nvt 1 1\nvt 0.1 1\n", kMapped), 2u);  // bent across the diagonal
+  const char* mapped = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+  EXPECT_EQ(lights("vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n", mapped), 1u);
+  EXPECT_EQ(lights("vt 0 0\nvt 1 0\nvt 1 1\nvt 0.1 1\n", mapped), 2u);  // bent across the diagonal
   EXPECT_EQ(lights("vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0.5 0\n", "f 1/1 2/2 3/3\nf 1/5 3/3 4/4\n"), 2u);  // a seam
   EXPECT_EQ(lights("", "f 1 2 3\nf 1 3 4\n"), 2u);  // barycentric ones
 }
