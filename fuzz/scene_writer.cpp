@@ -406,6 +406,7 @@ class SceneWriter {
       word("fov_axis", {"x", "y", "diagonal", "smaller", "larger"});
     }
     if (kind == 2) {
+      // No lens may be wider than 10000 times its focus.
       const double focus = c_.number(1e-3, kHuge);
       value("float", "aperture_radius", fmt::format("{:.9g}", c_.number(1e-6, std::min(kHuge, 9999 * focus))));
       value("float", "focus_distance", fmt::format("{:.9g}", focus));

@@ -53,7 +53,7 @@ IoStatus write_image(const std::string& path, const Image& image, const ToneMapp
 
 /// Reads EXR, PNG, JPEG, HDR, PFM and its relatives, BMP, TGA and TIFF as float channels; 8-bit colour is decoded to
 /// linear, alpha is left as the file has it (not multiplied). Of several images in a file the first counts. Errors: not
-/// a regular file, above 4 GiB, unknown or damaged, more than 2^30 values or `most_bytes`, decoding included. `image`
+/// a regular file, above 4 GiB, unknown or damaged, more than 2^30 values or `most_bytes`, the file and its decoding included. `image`
 /// changes on success only.
 IoStatus read_image(const std::string& path, Image& image,
                     std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());

@@ -82,7 +82,7 @@ std::optional<std::string> read_regular_file(const std::string& path, std::strin
     return std::nullopt;
   }
   if (file.bytes > most_bytes) {
-    error = "has " + memory_text(file.bytes) + ", and " + memory_text(most_bytes) + " of memory are left";
+    error = "does not fit into memory: " + shortage_text("it needs", file.bytes, most_bytes, most_bytes);
     return std::nullopt;
   }
   try {

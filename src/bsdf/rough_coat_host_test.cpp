@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bsdf/fresnel.h"
@@ -24,7 +25,8 @@ Means means_over_grid(const Microfacet& facets, double eta, double cos_theta) {
   const Vec3f wo{Float(float(std::sqrt(1 - cos_theta * cos_theta))), Float(0.0f), Float(float(cos_theta))};
   Means means;
   for (int i = 0; i < kSide * kSide; ++i) {
-    const Vec2f u{Float((float(i % kSide) + 0.5f) / kSide), Float((float(i / kSide) + 0.5f) / kSide)};
+    const int column = i % kSide, row = i / kSide;
+    const Vec2f u{Float((float(column) + 0.5f) / kSide), Float((float(row) + 0.5f) / kSide)};
     const Vec3f m = facets.sample_visible(wo, u);
     const Float cos_i = dot(wo, m);
     for (const bool inside : {false, true}) {

@@ -37,7 +37,7 @@ CameraRecord compile_sensor_thinlens(Parameters& p, Builder& builder, const Film
   const double focus =
       p.number("focus_distance", static_cast<double>(camera.far_clip), 0, kMaxCoordinate, Ends::open_below);
   if (p.has("aperture_radius") && radius > kMaxRadius * focus) {
-    p.error("aperture_radius", fmt::format("'aperture_radius' is {:g} times 'focus_distance'", radius / focus),
+    p.error("aperture_radius", fmt::format("'aperture_radius' is {:.9g} times 'focus_distance'", radius / focus),
             fmt::format("an aperture_radius of at most {:g} times focus_distance, here {:g}", kMaxRadius,
                         kMaxRadius * focus));
   }

@@ -19,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-Scene load_room(LoadOptions options = {}) {
+Scene load_room(const LoadOptions& options = {}) {
   Diagnostics diagnostics;
   auto scene = Scene::load("hexagon_room", options, diagnostics);
   for (const Diagnostic& d : diagnostics.all()) ADD_FAILURE() << to_text(d);

@@ -305,7 +305,8 @@ TEST_F(ImageFileTest, ReadLooksAtTheSizeOfTheFileFirst) {
   std::ofstream(path("large.png")) << std::string(3 << 20, 'x');
   Image image;
   EXPECT_EQ(read_image(path("large.png"), image, 2 << 20).error,
-            "cannot read '" + path("large.png") + "': it has 3.00 MiB, and 2.00 MiB of memory are left");
+            "cannot read '" + path("large.png") +
+                "': it does not fit into memory: it needs 3.00 MiB, and 2.00 MiB of 2.00 MiB are left");
 }
 
 TEST_F(ImageFileTest, ReadDecodesGreyFromSrgb) {

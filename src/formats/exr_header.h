@@ -7,7 +7,8 @@ namespace norrsken {
 
 /// Whether each attribute of the headers is as long as it says and as its type is, so that it ends where the next one
 /// begins. The library believes the sizes of some types and allocates them, up to 2 GiB each, before it reads; of others it
-/// reads what their type takes, whatever the size says, and then takes what follows for sizes.
+/// reads what their type takes, whatever the size says, and then takes what follows for sizes. Never of files with an
+/// idmanifest, after which the library loses its place by itself.
 bool exr_attributes_fit(std::string_view file);
 
 }  // namespace norrsken

@@ -45,6 +45,7 @@ TEST(ExrHeader, TypesOfOneSizeHaveThatSize) {
   EXPECT_FALSE(fits("tiledesc", std::string(8, 'x')));
   EXPECT_TRUE(fits("floatvector", std::string(8, 'x')));
   EXPECT_FALSE(fits("floatvector", std::string(7, 'x')));
+  EXPECT_FALSE(fits("idmanifest", std::string(8, 'x')));
   EXPECT_TRUE(fits("unheard_of", std::string(7, 'x')));
 }
 

@@ -1,5 +1,6 @@
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -57,13 +58,14 @@ IoStatus read_image(const std::string& path, Image& image, std::uint64_t most_by
   std::string error;
   const auto contents = read_regular_file(path, error, most_bytes);
   if (!contents) {
-    const bool is_about_file = error.starts_with("is ") || error.starts_with("has ") || error.starts_with("claims ");
+    const bool is_about_file = error.starts_with("is ") || error.starts_with("does ") || error.starts_with("claims ");
     return failure(path, (is_about_file ? "it " : "") + error);
   }
 
   Image read;
   auto* reader = find_entry<decltype(norrsken_oiio_read)>("norrsken_oiio_read", error);
-  if (reader == nullptr || !reader(path, *contents, most_bytes - contents->size(), read, error))
+  if (reader == nullptr ||
+      !reader(path, *contents, most_bytes - std::min<std::uint64_t>(most_bytes, contents->size()), read, error))
     return failure(path, error);
   image = std::move(read);
   return {};

@@ -73,21 +73,21 @@ const std::string kAround = R"(<emitter type="constant"/><emitter type="directio
 
 class ManyLights : public ::testing::TestWithParam<std::string> {
  protected:
-  LitScene scene{mixed_lights(140) + GetParam()};
-  std::uint32_t count() const { return scene.view.light_count; }
+  LitScene scene_{mixed_lights(140) + GetParam()};
+  std::uint32_t count() const { return scene_.view.light_count; }
   double prob(std::uint32_t light, const glm::dvec3& reference) const {
-    return double{light_prob_by_place(scene.view, UInt(light), lanes(reference), kOn).v};
+    return double{light_prob_by_place(scene_.view, UInt(light), lanes(reference), kOn).v};
   }
 };
 INSTANTIATE_TEST_SUITE_P(, ManyLights, ::testing::Values("", kAround),
                          [](const auto& set) { return set.param.empty() ? "alone" : "with_lights_around"; });
 
 TEST_P(ManyLights, ProbabilitiesSumToOneEverywhere) {
-  ASSERT_NE(scene.view.light_nodes, nullptr);
+  ASSERT_NE(scene_.view.light_nodes, nullptr);
   std::mt19937_64 random(1);
   std::vector<glm::dvec3> places{glm::dvec3(0), {1e4, -1e4, 3e3}, {1e9, 0, 0}};
   for (int i = 0; i < 300; ++i) places.push_back(anywhere(random, i % 3 == 0 ? 20 : 5));
-  for (std::uint32_t i = 0; i < count(); ++i) places.push_back(doubles(scene.view.lights[i].origin));
+  for (std::uint32_t i = 0; i < count(); ++i) places.push_back(doubles(scene_.view.lights[i].origin));
   for (const glm::dvec3& p : places) {
     double sum = 0;
     for (std::uint32_t i = 0; i < count(); ++i) {
@@ -106,7 +106,7 @@ TEST_P(ManyLights, AreChosenAsOftenAsTheirProbabilitySays) {
     std::vector<double> chosen(count());
     for (int i = 0; i < kSamples; ++i) {
       const Vec2f u{float(uniform(random)), float(uniform(random))};
-      const PickedLight picked = pick_light_by_place(scene.view, lanes(p), u, kOn);
+      const PickedLight picked = pick_light_by_place(scene_.view, lanes(p), u, kOn);
       ++chosen.at(picked.light.v);
       if (i < 1000) {
         EXPECT_NEAR(double{picked.prob.v} / prob(picked.light.v, p), 1, 1e-5);
@@ -140,15 +140,15 @@ TEST_P(ManyLights, HaveTheDensityThatTheyAreSampledWith) {
   for (int i = 0; i < 12'000; ++i) {
     const glm::dvec3 p = anywhere(random, 6);
     const Vec2f pick{float(uniform(random)), float(uniform(random))}, u{float(uniform(random)), float(uniform(random))};
-    const LightChoice choice = sample_one_light(scene.view, lanes(p), pick, u, kOn);
+    const LightChoice choice = sample_one_light(scene_.view, lanes(p), pick, u, kOn);
     if (!choice.sample.valid.v || choice.delta.v) continue;
-    const PickedLight picked = pick_light_by_place(scene.view, lanes(p), pick, kOn);
+    const PickedLight picked = pick_light_by_place(scene_.view, lanes(p), pick, kOn);
     const glm::dvec3 to_light = doubles(choice.sample.point) - p;
-    const Float pdf = light_pdf_sa(scene.view, picked.light, lanes(p), lanes(glm::normalize(to_light)),
+    const Float pdf = light_pdf_sa(scene_.view, picked.light, lanes(p), lanes(glm::normalize(to_light)),
                                    float(glm::length(to_light)), kOn);
     const double sampled = double{choice.prob.v} * double{choice.sample.pdf_sa.v};
     // At a grazing angle the rounding bound by which the point is off its light changes the cosine.
-    const double area = scene.view.lights[picked.light.v].area;
+    const double area = scene_.view.lights[picked.light.v].area;
     if (glm::dot(to_light, to_light) / (double{choice.sample.pdf_sa.v} * area) < 0.1) continue;
     EXPECT_NEAR(double{pdf.v}, sampled, 1e-2 * sampled);
     ++compared;
@@ -165,8 +165,8 @@ TEST_P(ManyLights, AreChosenWhereTheyMatter) {
     const glm::dvec3 p = anywhere(random, 5);
     double by_place = 0, by_power = 0;
     for (std::uint32_t k = 0; k < count(); ++k) {
-      if (scene.view.light_leaves[k] == kNone) continue;
-      SceneView one = scene.view;
+      if (scene_.view.light_leaves[k] == kNone) continue;
+      SceneView one = scene_.view;
       one.lights += k, one.light_count = 1, one.light_nodes = nullptr;
       double sent = 0;  // the mean of a few points of the light
       for (int n = 0; n < 8; ++n) {
@@ -175,7 +175,7 @@ TEST_P(ManyLights, AreChosenWhereTheyMatter) {
         if (choice.sample.valid.v) sent += double{choice.sample.radiance.y.v} / double{choice.sample.pdf_sa.v} / 8;
       }
       by_place += sent * sent / prob(k, p);
-      by_power += sent * sent / double{scene.view.lights[k].prob};
+      by_power += sent * sent / double{scene_.view.lights[k].prob};
     }
     worst = std::max(worst, by_place / by_power);
     logarithms += std::log(by_place / by_power) / kPlaces;

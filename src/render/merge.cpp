@@ -53,8 +53,8 @@ std::string complaint_about(const Part& part) {
   }
   if (std::ranges::any_of(stored.goal.of_tile, [&](std::uint32_t goal) { return goal != stored.samples.count(); })) {
     return part.name() +
-           " is of an adaptive rendering, whose tiles have different numbers of samples: only even ones "
-           "can be merged";
+           " is of an adaptive rendering, whose tiles have different numbers of samples: what is merged has "
+           "the same number everywhere";
   }
   const auto all = [](const TileProgress& progress, SampleRange range) {
     return std::ranges::all_of(progress, [&](std::uint32_t done) { return done == range.count(); });

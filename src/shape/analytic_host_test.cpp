@@ -51,7 +51,7 @@ std::vector<double> column(const Placed& placed, int i) {
   const glm::dvec4 c = placed.shape().world_from_local[i];
   return {c.x, c.y, c.z};
 }
-auto near(std::vector<double> values) { return Pointwise(DoubleNear(1e-6), values); }
+auto near(const std::vector<double>& values) { return Pointwise(DoubleNear(1e-6), values); }
 
 TEST(Disk, IsPlaced) {
   const Placed standard = disk("");

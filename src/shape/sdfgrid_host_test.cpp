@@ -108,11 +108,11 @@ TEST(SdfGridHost, RefusesOtherParameters) {
 }
 
 TEST(SdfGridHost, RefusesGridsWithoutASurface) {
-  const std::string kNone =
+  const std::string none =
       "error: the grid has no surface: its values have one sign [values that are negative inside, 0 or more outside]";
-  EXPECT_THAT(grid("", vol({2, 2, 2}, std::vector<float>(8, 1))).messages(), ElementsAre(kNone));
-  EXPECT_THAT(grid("", vol({2, 2, 2}, std::vector<float>(8, -1))).messages(), ElementsAre(kNone));
-  EXPECT_THAT(grid("", vol({2, 2, 2}, std::vector<float>(8, 0))).messages(), ElementsAre(kNone));
+  EXPECT_THAT(grid("", vol({2, 2, 2}, std::vector<float>(8, 1))).messages(), ElementsAre(none));
+  EXPECT_THAT(grid("", vol({2, 2, 2}, std::vector<float>(8, -1))).messages(), ElementsAre(none));
+  EXPECT_THAT(grid("", vol({2, 2, 2}, std::vector<float>(8, 0))).messages(), ElementsAre(none));
   EXPECT_THAT(grid("", vol({1, 2, 2}, {-1, 1, 1, 1})).messages(),
               ElementsAre("error: a grid of 1 x 2 x 2 values [2 or more along each axis]"));
 }

@@ -9,7 +9,6 @@ namespace norrsken::testing {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::FloatEq;
 using ::testing::FloatNear;
 using ::testing::IsEmpty;
 using ::testing::Pointwise;

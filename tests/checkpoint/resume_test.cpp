@@ -386,10 +386,9 @@ TEST_F(Merging, RefusesWhatIsUneven) {
   adaptive.samples_per_pixel = 64;
   adaptive.checkpoint = folder_.file("adaptive");
   run_for(room({.parameters = {}, .width = 160, .height = 120}), adaptive, std::chrono::hours(1));
-  EXPECT_EQ(
-      complaint({adaptive.checkpoint}),
-      "'adaptive' is of an adaptive rendering, whose tiles have different numbers of samples: only even ones can be "
-      "merged");
+  EXPECT_EQ(complaint({adaptive.checkpoint}),
+            "'adaptive' is of an adaptive rendering, whose tiles have different numbers of samples: what is merged has "
+            "the same number everywhere");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ class Direct : public SceneFolder {
   /// Of green over the image, by 16 seeds that no other call has.
   statistics::Estimate mean(const std::string& integrator, const std::string& sampler, const std::string& bsdf,
                             int samples) {
-    constexpr statistics::Grid kWhole[] = {{1, 1, 0.005}};
+    constexpr statistics::Grid kWhole[] = {{.columns = 1, .rows = 1}};
     const Scene scene =
         load_elements(integrator + camera(kSize, {}, R"(<rfilter type="box"/>)", sampler) + under_lamp(bsdf));
     const auto means = render_replicates(scene, {.samples_per_pixel = samples, .threads = kThreads}, 16,
@@ -100,8 +100,8 @@ TEST_F(Direct, DirectionsAreIndependentOfTheChosenLobe) {
       R"(<bsdf type="roughplastic"><float name="alpha" value="0.4"/><float name="int_ior" value="2.5"/></bsdf>)";
   statistics::StatisticalTest test;
   for (const char* sampler : {"independent", "sobol"}) {
-    EXPECT_TRUE(
-        test.agree(mean(direct(0, 1), sampler, plastic, 256), mean(direct(1, 0), sampler, plastic, 16), sampler));
+    EXPECT_TRUE(test.agree_to(0.025, mean(direct(0, 1), sampler, plastic, 1024),
+                              mean(direct(1, 0), sampler, plastic, 64), sampler));
   }
 }
 
@@ -115,7 +115,8 @@ TEST_F(Direct, DirectionsAreIndependentOfRoulette) {
     <float name="alpha" value="0.1"/><rgb name="specular_reflectance" value="0.3"/></bsdf>)";
   statistics::StatisticalTest test;
   for (const char* sampler : {"independent", "sobol"}) {
-    EXPECT_TRUE(test.agree(mean(path(1), sampler, glossy, 256), mean(path(100), sampler, glossy, 256), sampler));
+    EXPECT_TRUE(
+        test.agree_to(0.025, mean(path(1), sampler, glossy, 1024), mean(path(100), sampler, glossy, 1024), sampler));
   }
 }
 
@@ -132,9 +133,9 @@ TEST_F(Direct, EverySampleIsARay) {
 
 TEST_F(Direct, SamplesDivideTheVariance) {
   statistics::StatisticalTest test;
-  EXPECT_TRUE(test.agree(variance(direct(4, 0), 4), variance(direct(1, 0), 1), "emitter_samples"));
-  EXPECT_TRUE(test.agree(variance(direct(0, 4), 4), variance(direct(0, 1), 1), "bsdf_samples"));
-  EXPECT_TRUE(test.agree(variance(shading(4), 4), variance(shading(1), 1), "shading_samples"));
+  EXPECT_TRUE(test.agree_to(0.12, variance(direct(4, 0), 4), variance(direct(1, 0), 1), "emitter_samples"));
+  EXPECT_TRUE(test.agree_to(0.12, variance(direct(0, 4), 4), variance(direct(0, 1), 1), "bsdf_samples"));
+  EXPECT_TRUE(test.agree_to(0.12, variance(shading(4), 4), variance(shading(1), 1), "shading_samples"));
 }
 
 }  // namespace

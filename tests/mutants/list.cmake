@@ -31,7 +31,7 @@ norrsken_mutant(no_roulette_weight wave/shade_surface.h
   IN rendering BY "RussianRoulette*")
 norrsken_mutant(no_bsdf_sample_count wave/shade_surface.h
   "throughput * Float(1.0f / static_cast<float>(n))" "throughput"
-  IN rendering BY "Direct.SamplesDivide*")
+  IN rendering BY "Direct.SamplesDivide*" SAYING "bsdf_samples: [0-9.e+-]* where")
 norrsken_mutant(no_shading_normal_correction wave/shade_particles.h
   "(wo_local.z * dot(wi, surface.normal)) / (dot(wo, surface.normal) * wi_local.z)" "Float(1.0f)"
   IN rendering BY "LookedThrough.*FromTheLight*" SAYING "The difference between got")

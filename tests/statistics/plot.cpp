@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <system_error>
+
+#include "tests/statistics/case_name.h"
 
 namespace norrsken::statistics {
 
@@ -125,13 +126,9 @@ std::string save_plot(const std::string& name, const std::string& svg) {
   static std::atomic<int> written{0};
   const char* chosen = std::getenv("NORRSKEN_TEST_PLOTS");
   const std::filesystem::path folder = chosen && *chosen ? chosen : NORRSKEN_PLOT_FOLDER;
-  std::string plain = name;
-  for (char& c : plain) {
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  }
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  const std::filesystem::path path = folder / fmt::format("{}-{}.svg", plain, ++written);
+  const std::filesystem::path path = folder / fmt::format("{}-{}.svg", plain_name(name), ++written);
   std::ofstream file(path, std::ios::binary);
   file << svg;
   file.close();

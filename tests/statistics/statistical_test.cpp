@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
-#include "tests/statistics/judge.h"
 #include "tests/statistics/plot.h"
 #include "tests/statistics/student.h"
 #include "tests/statistics/suite.h"
@@ -94,11 +94,36 @@ StatisticalTest::~StatisticalTest() {
 ::testing::AssertionResult StatisticalTest::agree(const Estimate& tested, const Estimate& reference,
                                                   const std::string& what, double rounding) {
   ++made_;
-  const Comparison c = compare(tested, reference, 0, level_, rounding);
-  if (c.agrees()) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << fmt::format(
-             "{}: {:.6g} where {:.6g} is expected, off by {:.1f} sigma where {:.1f} are allowed", what, tested.mean,
-             reference.mean, c.sigmas, c.critical);
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  return verdict(compare(tested, reference, kAny, level_, rounding), tested, reference, what);
+}
+
+::testing::AssertionResult StatisticalTest::agree_to(double resolution, const Estimate& tested,
+                                                     const Estimate& reference, const std::string& what) {
+  ++made_;
+  return verdict(compare(tested, reference, resolution, level_, 0), tested, reference, what);
+}
+
+::testing::AssertionResult StatisticalTest::agree_to(double resolution, const PairedMeans& pairs,
+                                                     const std::string& what) {
+  ++made_;
+  const Estimate reference = pairs.reference();
+  return verdict(compare_paired(pairs.difference(), reference.mean, resolution, level_, 0), pairs.tested(), reference,
+                 what);
+}
+
+::testing::AssertionResult StatisticalTest::verdict(const Comparison& c, const Estimate& tested,
+                                                    const Estimate& reference, const std::string& what) const {
+  if (!c.agrees()) {
+    return ::testing::AssertionFailure() << fmt::format(
+               "{}: {:.6g} where {:.6g} is expected, off by {:.1f} sigma where {:.1f} are allowed", what, tested.mean,
+               reference.mean, c.sigmas, c.critical);
+  }
+  if (!c.resolves()) {
+    return ::testing::AssertionFailure() << fmt::format("{}: shows a bias of {:.2f} %, which should be {:.2f} %", what,
+                                                        100 * c.smallest_bias, 100 * c.resolution);
+  }
+  return ::testing::AssertionSuccess();
 }
 
 ::testing::AssertionResult StatisticalTest::at_most(const Estimate& tested, double limit, const std::string& what,

@@ -8,9 +8,24 @@
 #include <string>
 
 #include "tests/statistics/estimate.h"
+#include "tests/statistics/judge.h"
 #include "tests/statistics/sampling.h"
 
 namespace norrsken::statistics {
+
+/// Collects pairs of values, of a tested quantity and of its reference, that need not be independent of each other.
+class PairedMeans {
+ public:
+  void add(double tested, double reference) {
+    tested_.add(tested), reference_.add(reference), difference_.add(tested - reference);
+  }
+  Estimate tested() const { return tested_.estimate(); }
+  Estimate reference() const { return reference_.estimate(); }
+  Estimate difference() const { return difference_.estimate(); }
+
+ private:
+  Mean tested_, reference_, difference_;
+};
 
 /// One per test, which is entered in suite.h under its name with the number of its comparisons (and, if it has several
 /// instances, with how many they are). Comparisons that turn out to have no object are declared by `skip`. When it goes
@@ -40,6 +55,11 @@ class StatisticalTest {
                                    double rounding = 0) {
     return agree(tested, Estimate::known(reference), what, rounding);
   }
+  /// The same of two means that are known so well that a bias of `resolution`, relative to the reference, is seen.
+  ::testing::AssertionResult agree_to(double resolution, const Estimate& tested, const Estimate& reference,
+                                      const std::string& what);
+  /// Likewise of two quantities that were drawn in pairs, by the mean of their differences.
+  ::testing::AssertionResult agree_to(double resolution, const PairedMeans& pairs, const std::string& what);
   /// A mean that must not exceed a limit.
   ::testing::AssertionResult at_most(const Estimate& tested, double limit, const std::string& what,
                                      double rounding = 0);
@@ -54,6 +74,9 @@ class StatisticalTest {
   double level() const { return level_; }
 
  private:
+  ::testing::AssertionResult verdict(const Comparison& comparison, const Estimate& tested, const Estimate& reference,
+                                     const std::string& what) const;
+
   std::string name_;
   int planned_, made_ = 0;
   double level_;
