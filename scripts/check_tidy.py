@@ -18,7 +18,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PREFERRED_SET = "isa_avx2"  # of a file that is compiled several times: the richest code that Clang 14 knows well
 # Options of GCC that Clang does not have.
-UNKNOWN_TO_CLANG = {"-mprefer-vector-width=512", "-fno-fast-math", "-Wno-restrict"}
+UNKNOWN_TO_CLANG = ("-mprefer-vector-width=512", "-fno-fast-math", "-Wno-restrict", "--param=")
 
 
 def arguments():
@@ -44,7 +44,7 @@ def commands_to_check(options):
     for entry in json.loads((options.build / "compile_commands.json").read_text(encoding="utf-8")):
         path = pathlib.Path(entry["file"]).resolve()
         if is_wanted(path, options) and (path not in chosen or PREFERRED_SET in entry["command"]):
-            words = [word for word in entry["command"].split(" ") if word not in UNKNOWN_TO_CLANG]
+            words = [word for word in entry["command"].split(" ") if not word.startswith(UNKNOWN_TO_CLANG)]
             chosen[path] = entry | {"command": " ".join(words)}
     return chosen
 

@@ -184,7 +184,7 @@ bool Crew::run_pass(Pass pass, const WorkPlan& plan, const Tick& tick) {
 
 void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave, WaveMemory& memory) {
   const TileProgress& progress = pass == Pass::radiance ? work_.progress : work_.feature_progress;
-  constexpr std::uint32_t all = std::numeric_limits<std::uint32_t>::max() / 2;
+  constexpr std::uint32_t kAll = std::numeric_limits<std::uint32_t>::max() / 2;
   WaveCounts counts;
   while (!cancelled_.load(std::memory_order_relaxed) && !stop_.load(std::memory_order_relaxed)) {
     const std::uint64_t wave = next_wave.fetch_add(1, std::memory_order_relaxed);
@@ -199,7 +199,7 @@ void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& nex
     if (plan.block_of(wave) < on_film.blocks_before) continue;
     // Only an area's first wave finds a part of its samples on the film. It alone changes the progress until it is there.
     const std::uint32_t done = plan.block_of(wave) == on_film.blocks_before ? plan.progress_of(area, progress) : 0;
-    job = plan.remaining(job, done, pass == Pass::radiance ? plan.progress_of(area, work_.goal.of_tile) : all);
+    job = plan.remaining(job, done, pass == Pass::radiance ? plan.progress_of(area, work_.goal.of_tile) : kAll);
     // An area that has all its samples needs none of the later blocks either.
     if (job.sample_count == 0) continue;
     if (pass == Pass::radiance) {
