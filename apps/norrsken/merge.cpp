@@ -23,6 +23,7 @@ struct Arguments {
 
 std::string list_of(const std::vector<SampleRange>& ranges) {
   std::vector<std::string> texts;
+  texts.reserve(ranges.size());
   for (const SampleRange& range : ranges) texts.push_back(fmt::format("{}:{}", range.first, range.end));
   return fmt::format("{}", fmt::join(texts, ", "));
 }

@@ -91,8 +91,7 @@ inline void closest_in_embree(const SceneView& scene, bool coherent, const Vec3f
   auto* embree = static_cast<RTCScene>(scene.accel.embree_scene);
   alignas(64) RTCRayHitNt<kLanes> packet;
   store_rays(packet.ray, o, d, hit.t);
-  __builtin_memset(packet.hit.geomID, 0xff, sizeof packet.hit.geomID);
-  __builtin_memset(packet.hit.instID, 0xff, sizeof packet.hit.instID);
+  __builtin_memset(&packet.hit, 0xff, sizeof packet.hit);
   static_assert(RTC_INVALID_GEOMETRY_ID == 0xffffffffu && kNone == RTC_INVALID_GEOMETRY_ID);
   if (coherent && kLanes > 1) {
     intersect_packet(embree, packet, active);

@@ -100,7 +100,7 @@ class GridScene {
   }
 
  private:
-  void sample(Function f, int n) {
+  void sample(const Function& f, int n) {
     n_ = n;
     for (int z = 0; z < n; ++z) {
       for (int y = 0; y < n; ++y) {

@@ -29,14 +29,14 @@ Point point(const Vec2f& v) { return {double{v.x.v}, double{v.y.v}}; }
 
 /// What maps the unit square to directions, against what says how densely.
 template <class Warp>
-statistics::Sampling directions(const Warp& warp, std::function<double(const Direction&)> pdf_sa) {
+statistics::Sampling directions(const Warp& warp, const std::function<double(const Direction&)>& pdf_sa) {
   return statistics::sampling_of_directions(
       [warp](Random& random) -> std::optional<Direction> {
         const Vec3f w = warp(square(random));
         EXPECT_NEAR(double(dot(w, w).v), 1, 1e-5);
         return Direction{double{w.x.v}, double{w.y.v}, double{w.z.v}};
       },
-      std::move(pdf_sa));
+      pdf_sa);
 }
 
 TEST(Warp, DiskPreservesArea) {
