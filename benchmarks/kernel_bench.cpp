@@ -103,7 +103,8 @@ BenchRays::BenchRays(const BenchScene& scene, bool coherent) {
   std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
   const CameraRecord& camera = scene.tables().camera;
   for (std::uint32_t i = 0; i < kCount; ++i) {
-    const float px = 400.0f + static_cast<float>(i % kSide), py = 300.0f + static_cast<float>(i / kSide);
+    const std::uint32_t column = i % kSide, row = i / kSide;
+    const float px = 400.0f + static_cast<float>(column), py = 300.0f + static_cast<float>(row);
     float d[3], length = 0;
     for (int k = 0; k < 3; ++k) {
       d[k] = coherent ? camera.base[k] + px * camera.du[k] + py * camera.dv[k] : normal(random);

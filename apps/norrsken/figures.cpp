@@ -177,6 +177,7 @@ class Workshop {
     std::set<int> counts;  // those of the figures that differ from the last one in nothing else
     for (const FigureResult& figure : report_.figures)
       if (figure.light == last.light && figure.integrator == last.integrator) counts.insert(figure.spp);
+    measured.reserve(measured.size() + counts.size());
     for (const int spp : counts) measured.push_back({spp, render_and_measure(spp)});
     const int equal_spp = find_equal_error(last.relative_error(), measured, render_and_measure).spp;
 

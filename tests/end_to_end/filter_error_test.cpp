@@ -48,7 +48,7 @@ TEST_F(FilterWeights, MakeAnEdgeTheFiltersIntegral) {
   };
   for (int column = 3; column < kSize - 3; ++column) {
     double wanted = 0, got = 0;
-    const double edge = kSize / 2 - (column + 0.5);  // from the pixel's centre
+    const double edge = kSize / 2.0 - (column + 0.5);  // from the pixel's centre
     constexpr int kFine = 4000;
     for (int i = 0; i < kFine; ++i) {
       const double x = -2 + 4 * (i + 0.5) / kFine;

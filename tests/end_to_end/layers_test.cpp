@@ -78,7 +78,8 @@ TEST_F(Layers, OfOneSampleFitTogether) {
     const double x = p.x / (origin.z - p.z), y = p.y / (origin.z - p.z);
     const double column = (x + 0.5) * kSize, row = (0.5 - y) * kSize;
     EXPECT_NEAR(column, static_cast<double>(i % kSize) + 0.5, 0.5 + 1e-4);
-    EXPECT_NEAR(row, static_cast<double>(i / kSize) + 0.5, 0.5 + 1e-4);
+    const auto pixel_row = i / kSize;
+    EXPECT_NEAR(row, static_cast<double>(pixel_row) + 0.5, 0.5 + 1e-4);
     const double distance = std::sqrt(dot(p - origin, p - origin));
     EXPECT_NEAR(read("d.T", i), distance, 1e-5);
     for (const char* channel : {"R", "G", "B", "dist.R"}) EXPECT_NEAR(read(channel, i), distance, 1e-5);
@@ -108,8 +109,8 @@ TEST_F(Layers, DepthIsTheMeanDistance) {
       constexpr int kFine = 32;
       double sum = 0;
       for (int k = 0; k < kFine * kFine; ++k) {
-        const Vec d{(column + (k % kFine + 0.5) / kFine) / kSize - 0.5, 0.5 - (row + (k / kFine + 0.5) / kFine) / kSize,
-                    -1};
+        const int across = k % kFine, down = k / kFine;
+        const Vec d{(column + (across + 0.5) / kFine) / kSize - 0.5, 0.5 - (row + (down + 0.5) / kFine) / kSize, -1};
         // (0, 0, 4) + t d on the plane through (0, 0, 0.5).
         sum += -3.5 * kNormal.z / dot(d, kNormal) * std::sqrt(dot(d, d)) / (kFine * kFine);
       }

@@ -89,8 +89,8 @@ inline const std::vector<Row> kView{kToWorld, kNear, kFar};
 inline const std::vector<Row> kAngles{kFov, kFovAxis, kFocalLength};
 inline const std::vector<Row> kPoints{kSampleCount, kSeed};
 
-#define DIFFUSE "<bsdf type=\"diffuse\"/>"
-#define RELIEF "<texture type=\"bitmap\"><string name=\"filename\" value=\"relief.png\"/></texture>"
+#define NORRSKEN_DIFFUSE "<bsdf type=\"diffuse\"/>"
+#define NORRSKEN_RELIEF "<texture type=\"bitmap\"><string name=\"filename\" value=\"relief.png\"/></texture>"
 
 inline const Plugin kPlugins[] = {
     {"bsdf", "diffuse", "", {color("reflectance")}},
@@ -116,11 +116,11 @@ inline const Plugin kPlugins[] = {
                     rate("specular_reflectance_sampling_rate"),
                     rate("specular_transmittance_sampling_rate"),
                     rate("diffuse_transmittance_sampling_rate")})},
-    {"bsdf", "mask", DIFFUSE, {share("opacity")}},
-    {"bsdf", "blendbsdf", DIFFUSE DIFFUSE, {share("weight")}, {"weight"}},
-    {"bsdf", "bumpmap", RELIEF DIFFUSE, join(kRelief, {{"scale", "float", "3"}})},
-    {"bsdf", "normalmap", DIFFUSE, join(kRelief, {{"normalmap", "rgb", "0.5, 0.5, 1"}}), {"normalmap"}},
-    {"bsdf", "twosided", DIFFUSE, {}},
+    {"bsdf", "mask", NORRSKEN_DIFFUSE, {share("opacity")}},
+    {"bsdf", "blendbsdf", NORRSKEN_DIFFUSE NORRSKEN_DIFFUSE, {share("weight")}, {"weight"}},
+    {"bsdf", "bumpmap", NORRSKEN_RELIEF NORRSKEN_DIFFUSE, join(kRelief, {{"scale", "float", "3"}})},
+    {"bsdf", "normalmap", NORRSKEN_DIFFUSE, join(kRelief, {{"normalmap", "rgb", "0.5, 0.5, 1"}}), {"normalmap"}},
+    {"bsdf", "twosided", NORRSKEN_DIFFUSE, {}},
 
     {"texture", "checkerboard", "", {{"color0", "rgb", "0.1, 0.2, 0.3"}, {"color1", "float", "0.3"}, kToUv}},
     {"texture",
@@ -265,7 +265,7 @@ inline const Plugin kPlugins[] = {
     {"integrator", "aov", "", {{"aovs", "string", "d:depth"}}, {"aovs"}},
 };
 
-#undef DIFFUSE
-#undef RELIEF
+#undef NORRSKEN_DIFFUSE
+#undef NORRSKEN_RELIEF
 
 }  // namespace norrsken::testing

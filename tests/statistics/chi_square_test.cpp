@@ -124,9 +124,9 @@ TEST(FollowsDensity, AWrongShapeAWrongScaleAndLostSamplesAreSeen) {
 
 /// Sets a variable of the environment for as long as it lives.
 struct Environment {
-  Environment(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
-  ~Environment() { unsetenv(name_); }
-  const char* name_;
+  Environment(const char* variable, const std::string& value) : name(variable) { setenv(name, value.c_str(), 1); }
+  ~Environment() { unsetenv(name); }
+  const char* name;
 };
 
 TEST(FollowsDensity, AWrongOneLeavesAPlotThatCanBeRead) {
