@@ -31,7 +31,8 @@ struct ViewedScene {
         view(make_scene_view(scene.tables().tables, accel.view())) {}
 };
 
-inline std::unique_ptr<ViewedScene> view_scene(const std::string& name, AccelKind kind, const LoadOptions& options = {}) {
+inline std::unique_ptr<ViewedScene> view_scene(const std::string& name, AccelKind kind,
+                                               const LoadOptions& options = {}) {
   Diagnostics diagnostics;
   std::optional<Scene> scene = Scene::load(name, options, diagnostics);
   for (const Diagnostic& d : diagnostics.all()) ADD_FAILURE() << to_text(d);
