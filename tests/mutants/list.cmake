@@ -118,13 +118,13 @@ norrsken_mutant(k_in_the_place_of_eta bsdf/roughconductor.h
 # --- random numbers ----------------------------------------------------------------------------------------------------
 norrsken_mutant(off_by_one_dimension wave/shade_surface.h
   "dimension + hit_dimension::kRoulette" "dimension + hit_dimension::kRoulette - 1u"
-  IN rendering BY "Direct.*OfRoulette" SAYING "The difference between mean.path.1., sampler")
+  IN rendering BY "Direct.*OfRoulette")
 norrsken_mutant(lobe_shares_a_dimension wave/sample_bsdf.h
   "dimension + hit_dimension::kBsdfLobe" "dimension + hit_dimension::kBsdfLobe + 1u"
-  IN rendering BY "Direct.*OfTheChosenLobe" SAYING "The difference between mean.direct.0, 1., sampler")
+  IN rendering BY "Direct.*OfTheChosenLobe")
 norrsken_mutant(replicates_share_points sampler/sampler.h
   "hash(pixel_key, UInt(sample % kReplicates))" "pixel_key"
-  IN rendering BY "*ReportedVariance*sobol" SAYING "The difference between reported_over_observed")
+  IN rendering BY "*ReportedVariance*sobol")
 
 norrsken_mutant(biased_disk math/warp.h
   "ratio * Float(kPi / 4)" "ratio * Float(kPi / 5)"
