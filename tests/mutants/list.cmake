@@ -186,19 +186,19 @@ norrsken_mutant(dropped_samples_count wave/accumulate_film.h
   IN rendering BY "*DroppedSamples.AreMissing*" SAYING "lost.channel..i.")
 norrsken_mutant(squares_that_are_none wave/accumulate_film.h
   "rounded_to_24_bits(v * v)" "rounded_to_24_bits(v)"
-  IN rendering BY "*ReportedVariance*independent" SAYING "The difference between reported_over_observed")
+  IN rendering BY "*ReportedVariance*independent")
 norrsken_mutant(filter_weights_left_out wave/accumulate_film.h
   "values[i] *= weights[i]" "values[i]"
   IN rendering BY "FilterWeights*" SAYING "The difference between got and wanted is")
 norrsken_mutant(splats_in_one_replicate film/splats.cpp
   "(pixel * kReplicates + sample % kReplicates) * 3" "pixel * kReplicates * 3"
-  IN rendering BY "LightPathsError*" SAYING "The difference between reported_over_observed")
+  IN rendering BY "LightPathsError*")
 norrsken_mutant(samples_begin_at_the_first render/work_plan.cpp
   "origin_ + done" "done"
   IN rendering BY "WorkPlan.GoesOn*" SAYING "Expected equality of these values:\n *n\n")
 norrsken_mutant(variance_of_one_too_many film/film.cpp
   "count * (count - 1)" "count * count"
-  IN rendering BY "*ReportedVariance*independent" SAYING "The difference between reported_over_observed")
+  IN rendering BY "*ReportedVariance*independent")
 norrsken_mutant(replicates_of_equal_size film/sample_set.h
   "end % kReplicates > r ? 1u : 0u" "0u"
   IN rendering BY "Film.UnknownWith*"
