@@ -163,6 +163,7 @@ void trace_all_bare(RTCScene scene, const std::vector<Batch>& batches, bool inte
       trace_bare(scene, batches[i], intersect_all, distances);
   };
   std::vector<std::jthread> crew;
+  crew.reserve(static_cast<std::size_t>(threads));
   for (int i = 0; i < threads; ++i) crew.emplace_back(work);
 }
 
