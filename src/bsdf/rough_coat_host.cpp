@@ -39,20 +39,21 @@ std::array<QuadratureNode, n> gauss_rule() {
   return nodes;
 }
 
-struct Shares {
-  double reflected = 0, transmitted = 0;
-};
-
-/// What becomes of light from `wo` at facets around `m`.
-Shares shares_at(const Microfacet& facets, const Vec3f& wo, const Vec3f& m, double relative_ior) {
+/// Share of light from `wo` that facets around `m` let through to the other side.
+double transmitted_at(const Microfacet& facets, const Vec3f& wo, const Vec3f& m, double relative_ior) {
   const Float eta{float(relative_ior)}, cos_i = dot(wo, m);
   const FresnelDielectric f = fresnel_dielectric(cos_i, eta);
-  const Vec3f mirrored = reflect(wo, m, cos_i), refracted = refract(wo, m, cos_i, f.cos_t, eta);
-  const double reflectance = double(f.reflectance.v);
-  Shares shares;
-  if (mirrored.z.v > 0) shares.reflected = reflectance * double(facets.masking(mirrored, m).v);
-  if (refracted.z.v < 0) shares.transmitted = (1 - reflectance) * double(facets.masking(refracted, m).v);
-  return shares;
+  const Vec3f refracted = refract(wo, m, cos_i, f.cos_t, eta);
+  return refracted.z.v < 0 ? (1 - double(f.reflectance.v)) * double(facets.masking(refracted, m).v) : 0;
+}
+
+/// Share that they send back.
+double reflected_at(const Microfacet& facets, const Vec3f& wo, const Vec3f& m, double relative_ior) {
+  const Float cos_i = dot(wo, m);
+  const Vec3f mirrored = reflect(wo, m, cos_i);
+  if (!(mirrored.z.v > 0)) return 0;
+  return double(fresnel_dielectric(cos_i, Float(float(relative_ior))).reflectance.v) *
+         double(facets.masking(mirrored, m).v);
 }
 
 }  // namespace
@@ -72,8 +73,8 @@ RoughCoat integrate_rough_coat(const Microfacet& facets, double eta, std::uint32
         const Float u{float(along.x)}, v{float(across.x / 2)};
         const Vec3f m = facets.sample_visible(wo, facets.ggx.v ? Vec2f{v, u} : Vec2f{u, v});
         const double weight = along.weight * across.weight;
-        transmitted += weight * shares_at(facets, wo, m, eta).transmitted;
-        reflected_inside += weight * shares_at(facets, wo, m, 1 / eta).reflected;
+        transmitted += weight * transmitted_at(facets, wo, m, eta);
+        reflected_inside += weight * reflected_at(facets, wo, m, 1 / eta);
       }
     }
     coat.transmittances.push_back(transmitted);
