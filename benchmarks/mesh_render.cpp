@@ -8,14 +8,12 @@
 // take turns.
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <ctime>
-#include <filesystem>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -23,6 +21,7 @@
 #include "displaced_sphere.h"
 #include "kernel_bench.h"
 #include "render/crew.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken {
 namespace {
@@ -34,28 +33,15 @@ struct Settings {
   std::string isa = "auto";
 };
 
-/// A folder that goes with everything in it.
-struct TemporaryFolder {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("norrsken_mesh_render_{}", getpid());
-  TemporaryFolder() { std::filesystem::create_directories(path); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-};
-
 Scene load_scene(const Settings& settings) {
   const TemporaryFolder folder;
-  write_scene(sphere_grid(settings.triangles, false), "ply", folder.path);
+  write_scene(sphere_grid(settings.triangles, false), "ply", folder.path());
   LoadOptions options;
   options.parameters = {{"shadow_rays", "1"}};
   options.width = options.height = settings.size;
   options.samples_per_pixel = settings.spp;
   Diagnostics diagnostics;
-  const std::optional<Scene> scene = Scene::load((folder.path / "scene.xml").string(), options, diagnostics);
+  const std::optional<Scene> scene = Scene::load(folder.file("scene.xml"), options, diagnostics);
   if (!scene) throw std::runtime_error(to_text(diagnostics.all().at(0)));
   return *scene;
 }

@@ -9,6 +9,7 @@
 #include "norrsken/merge.h"
 #include "norrsken/render.h"
 #include "norrsken/scene.h"
+#include "tests/temporary_folder.h"
 
 namespace {
 
@@ -43,15 +44,12 @@ struct Subject {
     Diagnostics diagnostics;
     scene = Scene::load(file.path(), {}, diagnostics);
     fuzz::require(scene.has_value(), "the scene is good");
-    std::string folder = "/tmp/norrsken-fuzz-XXXXXX";
-    fuzz::require(mkdtemp(folder.data()) != nullptr, "there is a folder for temporary files");
-    const std::string path = folder + "/checkpoint";
+    const TemporaryFolder folder;
+    const std::string path = folder.file("checkpoint");
     const auto render = Render::create(*scene, options_for(path), diagnostics);
     fuzz::require(render && render->run({}).checkpoint_error.empty(), "the scene can be rendered");
     checkpoint = read(path);
     traits = fuzz::take_apart(checkpoint).sections.at(0).content;
-    for (const std::string& name : {path, path + ".1"}) unlink(name.c_str());
-    rmdir(folder.c_str());
   }
 
   static std::string read(const std::string& path) {

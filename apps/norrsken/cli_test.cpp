@@ -14,6 +14,7 @@
 
 #include "norrsken/image.h"
 #include "process_testing.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken::cli {
 namespace {
@@ -45,29 +46,22 @@ std::vector<json> parse_lines(const std::string& text) {
 
 class Cli : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("norrsken_cli_" + std::to_string(getpid()) + "_" +
-                                           testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   ProcessResult run(const std::vector<std::string>& arguments, ProcessOptions options = {}) const {
     options.folder = folder_.string();
     return run_program(arguments, options);
   }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
   std::string read(const std::string& name) const {
     std::ifstream file(folder_ / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
   std::vector<std::string> files() const {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename().string());
+    for (const auto& entry : fs::directory_iterator(folder_.path())) names.push_back(entry.path().filename().string());
     return names;
   }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(Cli, HelpAndVersionGoToStdout) {
@@ -173,7 +167,7 @@ TEST_F(Cli, RendersEveryOutputAndTheDefaultOne) {
   EXPECT_THAT(result.out, IsEmpty());
   EXPECT_THAT(result.err, HasSubstr("wrote a.exr, a.png"));
   Image image;
-  ASSERT_TRUE(read_image((folder_ / "a.exr").string(), image));
+  ASSERT_TRUE(read_image(folder_.file("a.exr"), image));
   EXPECT_EQ(image.width, 40);
   EXPECT_EQ(image.height, 30);
   EXPECT_NE(image.find("variance.R"), nullptr);
@@ -185,7 +179,7 @@ TEST_F(Cli, SeedAndThreadsDecideAsPromised) {
   const auto render = [&](const std::string& file, const std::vector<std::string>& more) {
     EXPECT_EQ(run(std::vector<std::string>{"render", "hexagon_room", "-o", file} + kShort + more).status, 0);
     Image image;
-    EXPECT_TRUE(read_image((folder_ / file).string(), image));
+    EXPECT_TRUE(read_image(folder_.file(file), image));
     return image.find("R")->values;
   };
   const auto one = render("one.exr", {"--threads", "1"});
@@ -198,7 +192,7 @@ TEST_F(Cli, ReplaysOneSample) {
                                         "1",      "--sampler",    "independent",     "--isa",  "scalar"};
   ASSERT_EQ(run(one + std::vector<std::string>{"-o", "a.exr", "--seed", "3"}).status, 0);
   Image image;
-  ASSERT_TRUE(read_image((folder_ / "a.exr").string(), image));
+  ASSERT_TRUE(read_image(folder_.file("a.exr"), image));
   const ProcessResult text = run(one + std::vector<std::string>{"--seed", "3", "--pixel", "12,20", "--trace"});
   EXPECT_EQ(text.status, 0);
   EXPECT_THAT(text.out, AllOf(StartsWith("sample 0 of pixel 12, 20\n"), HasSubstr("\n  1  ray from (-0.99, "),
@@ -240,7 +234,7 @@ TEST_F(Cli, SamplesThatAreInfiniteAreToldWithTheCommandThatReplaysThem) {
                                   HasSubstr("\nradiance (inf, ")));
 
   Image image;
-  ASSERT_TRUE(read_image((folder_ / "a.exr").string(), image));
+  ASSERT_TRUE(read_image(folder_.file("a.exr"), image));
   for (const char* channel : {"R", "G", "B"}) {
     for (const float value : image.find(channel)->values) ASSERT_TRUE(std::isfinite(value));
   }
@@ -294,7 +288,7 @@ TEST_F(Cli, InterruptSavesAndSays) {
     EXPECT_THAT(result.err, AllOf(HasSubstr("stopping; writing what there is (Ctrl-C again discards it)\n"),
                                   HasSubstr("wrote part.exr"), HasSubstr("of 1000000 samples per pixel")));
     Image image;
-    ASSERT_TRUE(read_image((folder_ / "part.exr").string(), image));
+    ASSERT_TRUE(read_image(folder_.file("part.exr"), image));
     double sum = 0;
     for (const float value : image.find("R")->values) sum += value;
     EXPECT_GT(sum, 0);

@@ -6,10 +6,10 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "process_testing.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken::cli {
 namespace {
@@ -68,13 +68,6 @@ std::string large_texture() {
 
 class MaxMemory : public testing::Test {
  protected:
-  MaxMemory()
-      : folder_(fs::temp_directory_path() / ("norrsken_memory_" + std::to_string(getpid()) + "_" +
-                                             testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::create_directories(folder_);
-  }
-  ~MaxMemory() override { fs::remove_all(folder_); }
-
   ProcessResult run(const std::vector<std::string>& arguments, ProcessOptions options = {}) const {
     options.folder = folder_.string();
     return run_program(arguments, options);
@@ -86,9 +79,7 @@ class MaxMemory : public testing::Test {
           "name=\"width\" value=\"8\"/>\n<integer name=\"height\" value=\"8\"/></film></sensor>\n" +
               elements + "\n<emitter type=\"constant\"/>\n</scene>\n");
   }
-  void write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-  }
+  void write(const std::string& name, const std::string& bytes) const { folder_.write(name, bytes); }
   void write_mesh_scene() const {
     write("mesh.ply", large_mesh());
     write_scene(R"(<shape type="ply"><string name="filename" value="mesh.ply"/></shape>)");
@@ -105,7 +96,7 @@ class MaxMemory : public testing::Test {
     return run(arguments);
   }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 /// The program itself, and with OpenImageIO's libraries.

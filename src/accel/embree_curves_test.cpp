@@ -1,15 +1,14 @@
 // Curves in a scene: what rays meet of them, and where the next rays begin.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 
 #include "isa/kernel_testing.h"
+#include "tests/temporary_folder.h"
 #include "wave/surface.h"
 
 namespace norrsken {
@@ -39,9 +38,8 @@ std::string name_of(const Place& p) { return fmt::format("scale {}{}", p.scale, 
 class CurveScene {
  public:
   CurveScene(const std::string& kind, const std::vector<Point>& points, const Place& place) : place_(place) {
-    const std::string folder = ::testing::TempDir() + "/norrsken-curves-" + std::to_string(::getpid());
-    std::filesystem::create_directories(folder);
-    std::ofstream file(folder + "/curve.txt");
+    const TemporaryFolder folder;
+    std::ofstream file(folder / "curve.txt");
     // In an instance the radii are scaled too; by the shape's own place they are not.
     const double r = place.instanced ? 1 : place.scale;
     for (const Point& c : points) file << fmt::format("{} {} {} {}\n", c.p.x, c.p.y, c.p.z, r * c.r);
@@ -56,11 +54,10 @@ class CurveScene {
                                                      R"(</shape></shape><shape type="instance"><ref id="g"/>)" +
                                                      to_world + "</shape>"
                                                : curve + to_world + "</shape>";
-    std::ofstream(folder + "/scene.xml")
+    std::ofstream(folder / "scene.xml")
         << R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm"/></sensor><emitter type="point"/>)"
         << shapes << "</scene>";
-    viewed_ = view_scene(folder + "/scene.xml", AccelKind::embree);
-    std::filesystem::remove_all(folder);
+    viewed_ = view_scene(folder.file("scene.xml"), AccelKind::embree);
     world_from_curve_ = glm::translate(glm::dmat4(1), s * glm::dvec3(2, -3, 1)) *
                         glm::rotate(glm::dmat4(1), glm::radians(40.0), glm::dvec3(1, 2, 3)) *
                         glm::scale(glm::dmat4(1), glm::dvec3(s));

@@ -1,9 +1,7 @@
 // Grids of signed distances in a scene: what rays meet of them, at every lane width, and where the next rays begin.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -11,6 +9,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "isa/kernel_testing.h"
+#include "tests/temporary_folder.h"
 #include "wave/surface.h"
 
 namespace norrsken {
@@ -45,10 +44,9 @@ std::string name_of(const Place& p) { return fmt::format("scale {}{}", p.scale, 
 class GridScene {
  public:
   GridScene(const Function& f, int n, const Place& place) {
-    const std::string folder = ::testing::TempDir() + "/norrsken-grid-" + std::to_string(::getpid());
-    std::filesystem::create_directories(folder);
+    const TemporaryFolder folder;
     sample(f, n);
-    write_vol(folder + "/grid.vol");
+    write_vol(folder.file("grid.vol"));
     const double s = place.scale;
     const std::string to_world = fmt::format(
         R"(<transform name="to_world"><scale x="{}" y="{}" z="{}"/><rotate x="1" y="2" z="3" angle="40"/>
@@ -59,11 +57,10 @@ class GridScene {
                                                      R"(</shape></shape><shape type="instance"><ref id="g"/>)" +
                                                      to_world + "</shape>"
                                                : grid + to_world + "</shape>";
-    std::ofstream(folder + "/scene.xml")
+    std::ofstream(folder / "scene.xml")
         << R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm"/></sensor><emitter type="constant"/>)"
         << shapes << "</scene>";
-    viewed_ = view_scene(folder + "/scene.xml", AccelKind::embree);
-    std::filesystem::remove_all(folder);
+    viewed_ = view_scene(folder.file("scene.xml"), AccelKind::embree);
     world_from_grid_ = glm::translate(glm::dmat4(1), s * glm::dvec3(2, -3, 1)) *
                        glm::rotate(glm::dmat4(1), glm::radians(40.0), glm::dvec3(1, 2, 3)) *
                        glm::scale(glm::dmat4(1), s * glm::dvec3(1, 1.5, 0.75));

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
 #include "base/machine_memory.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken {
 namespace {
@@ -127,11 +127,9 @@ TEST(MemoryText, IsShortAndTellsApart) {
 /// A made-up root folder.
 class MachineMemory : public ::testing::Test {
  protected:
-  MachineMemory() : root_(std::filesystem::temp_directory_path() / ("norrsken_memory_" + std::to_string(getpid()))) {
-    std::filesystem::remove_all(root_);
+  MachineMemory() {
     add("proc/meminfo", "MemTotal:  8388608 kB\nMemFree:  1 kB\nMemAvailable:    6291456 kB\nBuffers: 5 kB\n");
   }
-  ~MachineMemory() override { std::filesystem::remove_all(root_); }
 
   void add(const std::string& path, const std::string& text) {
     std::filesystem::create_directories((root_ / path).parent_path());
@@ -141,7 +139,7 @@ class MachineMemory : public ::testing::Test {
   std::uint64_t mebibytes() const { return available() / kMebibyte; }
 
  private:
-  std::filesystem::path root_;
+  const TemporaryFolder root_;
 };
 
 std::string bytes(std::uint64_t mebibytes) { return std::to_string(mebibytes * kMebibyte) + "\n"; }

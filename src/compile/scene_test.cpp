@@ -11,6 +11,7 @@
 
 #include "compile/compile.h"
 #include "scene/file_system.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken {
 namespace {
@@ -220,12 +221,12 @@ TEST(SceneLoad, NamesTheBuiltInScenesWhenThereIsNoSuchFile) {
 }
 
 TEST(SceneLoad, ReadsAFileFromDisk) {
-  const std::string path = ::testing::TempDir() + "norrsken_scene_test.xml";
-  std::ofstream(path) << R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm">
-    <rfilter type="box"/></film></sensor><shape type="sphere"/><emitter type="point"/></scene>)";
+  const TemporaryFolder folder;
+  const std::string path =
+      folder.write("scene.xml", R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm">
+    <rfilter type="box"/></film></sensor><shape type="sphere"/><emitter type="point"/></scene>)");
   Diagnostics diagnostics;
   const auto scene = Scene::load(path, {}, diagnostics);
-  std::remove(path.c_str());
   ASSERT_TRUE(scene);
   EXPECT_THAT(diagnostics.all(), IsEmpty());
   EXPECT_EQ(scene->info().spheres, 1u);
@@ -267,13 +268,12 @@ TEST(SceneLoad, RefusesToTakeNoSamples) {
 /// A scene on disk for as long as the object lives.
 class SceneOnDisk {
  public:
-  explicit SceneOnDisk(const std::string& elements) : path_(::testing::TempDir() + "norrsken_scene_on_disk.xml") {
-    std::ofstream(path_) << "<scene version=\"3.0.0\">\n" << elements << "\n</scene>\n";
-  }
-  ~SceneOnDisk() { std::remove(path_.c_str()); }
+  explicit SceneOnDisk(const std::string& elements)
+      : path_(folder_.write("scene.xml", "<scene version=\"3.0.0\">\n" + elements + "\n</scene>\n")) {}
   const std::string& path() const { return path_; }
 
  private:
+  TemporaryFolder folder_;
   std::string path_;
 };
 
@@ -309,17 +309,16 @@ TEST(SceneLoad, TellsWhatIsWrongInTheOrderOfTheFile) {
 TEST(SceneLoad, AFolderDoesNotHideABuiltInSceneButAFileDoes) {
   namespace fs = std::filesystem;
   const fs::path before = fs::current_path();
-  const fs::path folder = fs::path(::testing::TempDir()) / "norrsken_scene_names";
+  const TemporaryFolder folder;
   fs::create_directories(folder / "hexagon_room");
   fs::create_directories(folder / "other");
-  fs::current_path(folder);
+  fs::current_path(folder.path());
   EXPECT_EQ(load_messages("hexagon_room", {}), "");
   EXPECT_EQ(load_messages("other", {}), "error: cannot read the scene 'other': is a folder\naccepted: an XML file\n");
   fs::remove_all("hexagon_room");
   std::ofstream("hexagon_room") << "not XML";
   EXPECT_THAT(load_messages("hexagon_room", {}), HasSubstr("error"));
   fs::current_path(before);
-  fs::remove_all(folder);
 }
 
 TEST(SceneLoad, AnEmptyPluginNameIsNotNoName) {
@@ -333,7 +332,7 @@ TEST(SceneLoad, AnEmptyPluginNameIsNotNoName) {
 
 TEST(SceneLoad, RefusesFolders) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(Scene::load(::testing::TempDir(), {}, diagnostics));
+  EXPECT_FALSE(Scene::load(TemporaryFolder().string(), {}, diagnostics));
   EXPECT_TRUE(diagnostics.has_errors());
 }
 

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/temporary_folder.h"
+
 namespace norrsken {
 namespace {
 
@@ -18,22 +20,16 @@ using testing::HasSubstr;
 
 class AtomicFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = testing::TempDir() + "/norrsken-XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.file(name); }
   void put(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
   std::string text_of(const std::string& name) const {
     std::ostringstream text;
     text << std::ifstream(path(name)).rdbuf();
     return text.str();
   }
-  int files() const { return static_cast<int>(std::distance(fs::directory_iterator(folder_), {})); }
+  int files() const { return static_cast<int>(std::distance(fs::directory_iterator(folder_.path()), {})); }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(AtomicFileTest, AppearsWithCommitOnly) {
@@ -90,7 +86,7 @@ TEST_F(AtomicFileTest, NeverWritesThroughAnExistingName) {
   AtomicFile first;
   ASSERT_TRUE(first.create(path("a.png")));
   std::string name;
-  for (const auto& entry : fs::directory_iterator(folder_)) {
+  for (const auto& entry : fs::directory_iterator(folder_.path())) {
     if (entry.path().filename() != "victim") name = entry.path().filename().string();
   }
   const std::size_t number_at = name.rfind('-') + 1;

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "color/srgb.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken {
 namespace {
@@ -39,21 +40,15 @@ Image made_up_image(int width, int height, const std::vector<std::string>& names
 
 class ImageFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = testing::TempDir() + "/norrsken-XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.file(name); }
   std::string bytes_of(const std::string& name) const {
     std::ostringstream bytes;
     bytes << std::ifstream(path(name), std::ios::binary).rdbuf();
     return bytes.str();
   }
-  int files() const { return static_cast<int>(std::distance(fs::directory_iterator(folder_), {})); }
+  int files() const { return static_cast<int>(std::distance(fs::directory_iterator(folder_.path()), {})); }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST(Image, ChannelAddsZerosOnceAndFindFindsThem) {

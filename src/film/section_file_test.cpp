@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/temporary_folder.h"
+
 namespace norrsken {
 namespace {
 
@@ -23,14 +25,6 @@ std::span<const std::byte> bytes_of(const std::string& text) { return std::as_by
 
 class SectionFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("norrsken_sections_" + std::to_string(getpid()) + "_" +
-                                           testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-    path_ = (folder_ / "file").string();
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   IoStatus write(const std::string& first, const std::string& second, OlderGeneration older = OlderGeneration::keep) {
     const Section sections[] = {{"first", bytes_of(first)}, {"second", bytes_of(second)}};
     return write_sections(path_, kVersion, sections, older);
@@ -53,13 +47,13 @@ class SectionFile : public testing::Test {
   void put(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
   std::vector<std::string> files() const {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename().string());
+    for (const auto& entry : fs::directory_iterator(folder_.path())) names.push_back(entry.path().filename().string());
     std::ranges::sort(names);
     return names;
   }
 
-  fs::path folder_;
-  std::string path_;
+  const TemporaryFolder folder_;
+  const std::string path_ = folder_.file("file");
 };
 
 TEST_F(SectionFile, IsReadAsItWasWritten) {
@@ -176,10 +170,10 @@ TEST_F(SectionFile, RefusesWhatCannotBeWritten) {
   EXPECT_EQ(check_sections_writable(path_).error, "cannot write '" + path_ + "': it is a folder");
   EXPECT_EQ(write("hello", "you").error, "cannot write '" + path_ + "': it is a folder");
   if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
-  chmod(folder_.c_str(), 0555);
-  EXPECT_EQ(check_sections_writable((folder_ / "other").string()).error,
-            "cannot write '" + (folder_ / "other").string() + "': Permission denied");
-  chmod(folder_.c_str(), 0755);
+  chmod(folder_.path().c_str(), 0555);
+  EXPECT_EQ(check_sections_writable(folder_.file("other")).error,
+            "cannot write '" + folder_.file("other") + "': Permission denied");
+  chmod(folder_.path().c_str(), 0755);
 }
 
 TEST_F(SectionFile, CheckingLeavesNothing) {

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "norrsken/image.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken {
 namespace {
@@ -14,12 +14,10 @@ namespace {
 /// The bytes of a file that `write` makes.
 template <class Write>
 std::string bytes_of(const std::string& name, const Write& write) {
-  std::string pattern = testing::TempDir() + "/norrsken-XXXXXX";
-  const std::filesystem::path folder = mkdtemp(pattern.data());
-  write((folder / name).string());
+  const TemporaryFolder folder;
+  write(folder.file(name));
   std::ostringstream bytes;
   bytes << std::ifstream(folder / name, std::ios::binary).rdbuf();
-  std::filesystem::remove_all(folder);
   return bytes.str();
 }
 

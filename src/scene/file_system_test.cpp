@@ -8,9 +8,9 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "scene/memory_files.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken {
 
@@ -23,16 +23,6 @@ namespace {
 
 class FileSystemTest : public testing::Test {
  protected:
-  FileSystemTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "norrsken_XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~FileSystemTest() override { std::filesystem::remove_all(folder_); }
-
-  std::string write(const std::string& name, const std::string& contents) {
-    std::ofstream(folder_ + "/" + name, std::ios::binary) << contents;
-    return folder_ + "/" + name;
-  }
   std::string error_of(const std::string& path) {
     std::string error;
     EXPECT_FALSE(files_.read(path, error).has_value());
@@ -40,15 +30,15 @@ class FileSystemTest : public testing::Test {
   }
 
   FileSystem files_;
-  std::string folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(FileSystemTest, ReadsWholeFiles) {
   std::string contents(100000, 'x');
   contents[5] = '\0';
   std::string error;
-  EXPECT_EQ(files_.read(write("a.bin", contents), error), contents);
-  EXPECT_EQ(files_.read(write("empty", ""), error), "");
+  EXPECT_EQ(files_.read(folder_.write("a.bin", contents), error), contents);
+  EXPECT_EQ(files_.read(folder_.write("empty", ""), error), "");
   EXPECT_EQ(error, "");
 }
 
@@ -60,18 +50,18 @@ TEST_F(FileSystemTest, ReadsFilesThatClaimToBeEmpty) {
 }
 
 TEST_F(FileSystemTest, RefusesWhatIsNotAFile) {
-  EXPECT_EQ(error_of(folder_ + "/missing"), "no such file");
-  EXPECT_EQ(error_of(write("file", "x") + "/below"), "Not a directory");
-  EXPECT_EQ(error_of(folder_), "is a folder");
+  EXPECT_EQ(error_of(folder_.file("missing")), "no such file");
+  EXPECT_EQ(error_of(folder_.write("file", "x") + "/below"), "Not a directory");
+  EXPECT_EQ(error_of(folder_.string()), "is a folder");
   EXPECT_EQ(error_of("/dev/zero"), "is not a regular file");
-  const std::string pipe = folder_ + "/pipe";
+  const std::string pipe = folder_.file("pipe");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(error_of(pipe), "is not a regular file");
 
   const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const std::string name = folder_ + "/socket";
+  const std::string name = folder_.file("socket");
   std::strncpy(address.sun_path, name.c_str(), sizeof(address.sun_path) - 1);
   ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
   EXPECT_EQ(error_of(name), "is not a regular file");
@@ -79,7 +69,7 @@ TEST_F(FileSystemTest, RefusesWhatIsNotAFile) {
 }
 
 TEST_F(FileSystemTest, RefusesHugeFilesBeforeReadingThem) {
-  const std::string path = write("huge", "");
+  const std::string path = folder_.write("huge", "");
   std::filesystem::resize_file(path, (std::uintmax_t{4} << 30) + 1);  // a hole: takes no room on the disk
   EXPECT_EQ(error_of(path), "is larger than 4 GiB");
 }

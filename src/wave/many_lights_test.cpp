@@ -1,10 +1,10 @@
 // Lights chosen by place against lights chosen by power, over whole waves of a scene with hundreds of lights: the same
 // mean, and less noise of as many samples.
 #include <cstdio>
-#include <fstream>
 
 #include "isa/kernel_testing.h"
 #include "tests/statistics/statistical_test.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken {
 namespace {
@@ -73,10 +73,8 @@ INSTANTIATE_TEST_SUITE_P(, ManyLightsInAHall, ::testing::Bool(),
                          [](const auto& set) { return set.param ? "surrounded" : "alone"; });
 
 TEST_P(ManyLightsInAHall, HaveTheSameMeanAndLessNoiseByPlace) {
-  const std::string path = ::testing::TempDir() + "norrsken_many_lights.xml";
-  std::ofstream(path) << hall_of_lights(GetParam());
-  const auto hall = view_scene(path, AccelKind::embree);
-  std::remove(path.c_str());
+  const TemporaryFolder folder;
+  const auto hall = view_scene(folder.write("hall.xml", hall_of_lights(GetParam())), AccelKind::embree);
   ASSERT_TRUE(hall);
   ASSERT_NE(hall->view.light_nodes, nullptr);
   SceneView by_power = hall->view;

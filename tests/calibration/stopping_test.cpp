@@ -1,7 +1,6 @@
 // Renderings that end at an error or a time.
 #include <gtest/gtest.h>
 
-#include <unistd.h>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <thread>
 
 #include "tests/end_to_end/rendering.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -117,8 +117,8 @@ TEST(TimeLimit, ProgressTellsTheTimeLeft) {
 /// Interrupted again and again, resumed each time.
 TEST(Steps, InterruptionsChangeNoBit) {
   const Scene scene = room(96);
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("norrsken_steps_" + std::to_string(getpid()))).string();
+  const TemporaryFolder folder;
+  const std::string file = folder.file("checkpoint");
   for (const bool adaptive : {false, true}) {
     RenderOptions options{.target_error = 0.18, .adaptive = adaptive, .threads = kThreads};
     const Image whole = render(scene, options).image;
@@ -148,8 +148,8 @@ TEST(Steps, InterruptionsChangeNoBit) {
 /// What one command has left, another goes on from, whatever it asks for.
 TEST(Steps, CheckpointsGoOnByOtherRules) {
   const Scene scene = room(96);
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("norrsken_rules_" + std::to_string(getpid()))).string();
+  const TemporaryFolder folder;
+  const std::string file = folder.file("checkpoint");
   RenderOptions options{.samples_per_pixel = 64, .adaptive = true, .threads = kThreads};
   options.checkpoint = file;
   const auto go_on = [&](std::optional<int> samples, double error, double seconds, bool adaptive) {
@@ -166,8 +166,6 @@ TEST(Steps, CheckpointsGoOnByOtherRules) {
   EXPECT_GT(go_on({}, 0, 0.05, false), 72);
   EXPECT_GT(go_on({}, 0.2, 0, true), 72);
   EXPECT_EQ(go_on(500, 0, 0, false), 500);
-  std::filesystem::remove(file);
-  std::filesystem::remove(file + ".1");
 }
 
 TEST(Steps, ATimeTooShortForOneSampleTakesIt) {

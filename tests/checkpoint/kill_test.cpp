@@ -13,6 +13,7 @@
 
 #include "norrsken/image.h"
 #include "process_testing.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken::cli {
 namespace {
@@ -22,13 +23,6 @@ using testing::HasSubstr;
 
 class KillTest : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("norrsken_kill_" + std::to_string(getpid()) + "_" +
-                                           testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// About half of the time goes into checkpoints.
   static std::vector<std::string> command(const std::string& checkpoint, int samples = 2500) {
     std::vector<std::string> arguments = {"render",
@@ -56,7 +50,7 @@ class KillTest : public testing::Test {
   }
   Image image() const {
     Image image;
-    const IoStatus status = read_image((folder_ / "a.exr").string(), image);
+    const IoStatus status = read_image(folder_.file("a.exr"), image);
     EXPECT_EQ(status.error, "");
     return image;
   }
@@ -74,7 +68,7 @@ class KillTest : public testing::Test {
     }
   }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(KillTest, AHundredKillsChangeNoBit) {

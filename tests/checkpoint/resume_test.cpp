@@ -2,7 +2,6 @@
 // and what does not belong together is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "norrsken/merge.h"
 #include "tests/end_to_end/param_name.h"
 #include "tests/end_to_end/rendering.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -22,24 +22,6 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-class TestFolder {
- public:
-  TestFolder()
-      : path_(fs::temp_directory_path() /
-              ("norrsken_checkpoint_" + std::to_string(getpid()) + "_" + std::to_string(counter()++))) {
-    fs::create_directories(path_);
-  }
-  ~TestFolder() { fs::remove_all(path_); }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  static int& counter() {
-    static int count = 0;
-    return count;
-  }
-  fs::path path_;
-};
 
 /// Errors and warnings as lines, the file's folder left out.
 std::vector<std::string> messages(const Diagnostics& diagnostics) {
@@ -115,7 +97,7 @@ class Checkpoints : public testing::TestWithParam<Case> {
     return part.checkpoint;
   }
 
-  TestFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_P(Checkpoints, InterruptionsChangeNoBit) {
@@ -199,7 +181,7 @@ class Refusals : public testing::Test {
            " [the settings and files that it was made with, or another checkpoint]";
   }
 
-  TestFolder folder_;
+  TemporaryFolder folder_;
   Image whole_;
 };
 

@@ -3,26 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "tests/end_to_end/rendering.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken::end_to_end {
 
 /// A folder of its own, gone after the test.
 class SceneFolder : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = ::testing::TempDir() + "/norrsken-XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
+  std::string path(const std::string& name) const { return folder_.file(name); }
+  void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
   /// A scene of these elements.
   Scene load_elements(const std::string& elements) const {
     write("scene.xml", "<scene version=\"3.0.0\">" + elements + "</scene>");
@@ -30,7 +22,7 @@ class SceneFolder : public ::testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
 };
 
 inline std::string integer(const std::string& name, int value) {

@@ -13,6 +13,7 @@
 
 #include "tests/statistics/plot.h"
 #include "tests/statistics/statistical_test.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken::statistics {
 namespace {
@@ -130,8 +131,8 @@ struct Environment {
 };
 
 TEST(FollowsDensity, AWrongOneLeavesAPlotThatCanBeRead) {
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "norrsken_plots" / "new";
-  std::filesystem::remove_all(folder);
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary / "plots" / "new";
   const Environment environment("NORRSKEN_TEST_PLOTS", folder.string());
   StatisticalTest test("FollowsDensity.tests_of_itself");
   const auto verdict = test.follows_density(ramp(0.5, 1), "ramp <1>, a & b, 37 degrees");
@@ -167,7 +168,6 @@ TEST(FollowsDensity, AWrongOneLeavesAPlotThatCanBeRead) {
   EXPECT_GT(colours[0].size(), 5u);
   EXPECT_GT(colours[1].size(), 5u);
   EXPECT_TRUE(colours[2].contains("#ff0000") && colours[2].contains("#0000ff"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(StatisticalTest, RefusesAnotherNumberOfComparisons) {
