@@ -18,7 +18,8 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PREFERRED_SET = "isa_avx2"  # of a file that is compiled several times: the richest code that Clang 14 knows well
 # Options of GCC that Clang does not have.
-UNKNOWN_TO_CLANG = ("-mprefer-vector-width=512", "-fno-fast-math", "-Wno-restrict", "--param=")
+UNKNOWN_TO_CLANG = ("-mprefer-vector-width=512", "-fno-fast-math", "-Wno-restrict", "--param=", "-mmove-max=",
+                    "-mstore-max=")
 
 
 def arguments():

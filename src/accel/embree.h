@@ -84,9 +84,9 @@ NORRSKEN_INLINE void number_hits(const AccelView& accel, HitPacket& hits, Mask h
   }
 }
 
-/// Fills `hit` for the active lanes with the closest hit nearer than `hit.t`.
-inline void closest_in_embree(const SceneView& scene, bool coherent, const Vec3f& o, const Vec3f& d, ClosestHit& hit,
-                              Mask active) {
+/// The closest hit; nearer than infinity for active lanes alone.
+inline ClosestHit closest_in_embree(const SceneView& scene, bool coherent, Vec3f o, Vec3f d, Mask active) {
+  ClosestHit hit{Float(kInfinity), UInt(0u)};
   active &= is_ray(o, d);
   auto* embree = static_cast<RTCScene>(scene.accel.embree_scene);
   alignas(64) RTCRayHitNt<kLanes> packet;
@@ -100,7 +100,7 @@ inline void closest_in_embree(const SceneView& scene, bool coherent, const Vec3f
   }
 
   const Mask found = active & (load_words(packet.hit.geomID) != UInt(RTC_INVALID_GEOMETRY_ID));
-  if (none(found)) return;
+  if (none(found)) return hit;
   number_hits(scene.accel, packet.hit, found);
   // Embree's normals are those of the instance's space.
   Vec3f object_d = d;
@@ -116,9 +116,10 @@ inline void closest_in_embree(const SceneView& scene, bool coherent, const Vec3f
   const UInt side = select(dot(n, object_d) > Float(0.0f), UInt(kBackSide), UInt(0u));
   hit.t = select(found, load(packet.ray.tfar), hit.t);
   hit.primitive_side = select(found, side | load_words(packet.hit.primID), hit.primitive_side);
+  return hit;
 }
 
-inline Mask occluded_in_embree(const SceneView& scene, const Vec3f& o, const Vec3f& d, Float t_max, Mask active) {
+inline Mask occluded_in_embree(const SceneView& scene, Vec3f o, Vec3f d, Float t_max, Mask active) {
   active &= is_ray(o, d) & (t_max > Float(0.0f));
   auto* embree = static_cast<RTCScene>(scene.accel.embree_scene);
   alignas(64) RayPacket rays;

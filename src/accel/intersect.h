@@ -53,8 +53,7 @@ NORRSKEN_INLINE ClosestHit intersect_closest_lanes(const SceneView& scene, bool 
       closest_by_moller_trumbore(scene, o, d, hit);
       break;
     case AccelKind::embree:
-      closest_in_embree(scene, coherent, o, d, hit, active);
-      break;
+      return closest_in_embree(scene, coherent, copied(o), copied(d), active);
   }
   return hit;
 }
@@ -67,7 +66,7 @@ NORRSKEN_INLINE Mask occluded_lanes(const SceneView& scene, const Vec3f& o, cons
     case AccelKind::moller_trumbore:
       return active & occluded_by_moller_trumbore(scene, o, d, t_max);
     case AccelKind::embree:
-      return occluded_in_embree(scene, o, d, t_max, active);
+      return occluded_in_embree(scene, copied(o), copied(d), t_max, active);
   }
   return active;
 }

@@ -2,6 +2,7 @@
 // whole waves. Hits on an edge may fall to either side where rounding differs, so a share of records may differ; it is
 // bounded, and everything else must agree closely.
 #include "isa/kernel_testing.h"
+#include "wave/plain_scene.h"
 
 namespace norrsken {
 namespace {
@@ -225,6 +226,28 @@ TEST_P(Parity, WholeWaves) {
     EXPECT_NEAR(sum_a, sum_b, 0.02 * sum_b) << kernels->name;
     EXPECT_LE(difference, 0.01 * job.slot_count()) << kernels->name;
     EXPECT_NEAR(static_cast<double>(counts_a.shadow_rays), static_cast<double>(counts_b.shadow_rays), 20);
+  }
+}
+
+/// The room is shaded by code that knows what a plain scene lacks. Told that something may be smooth, though nothing is, it
+/// goes through the code for all scenes.
+TEST_P(Parity, PlainScenesAreShadedLikeAnyOthers) {
+  ASSERT_TRUE(isa_host::PlainScene::is_plain(scene()));
+  SceneView any_scene = scene();
+  any_scene.any_smooth = true;
+  for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+    Made a(0), b(0);
+    WaveCounts counts_a, counts_b;
+    const WaveJob job{300, 500, 16, 8, 0, 8};
+    (*k)->trace_wave(scene(), job, a.memory, counts_a);
+    (*k)->trace_wave(any_scene, job, b.memory, counts_b);
+    EXPECT_EQ(counts_a.shadow_rays, counts_b.shadow_rays) << (*k)->name;
+    for (std::uint32_t s = 0; s < job.slot_count(); ++s) {
+      for (std::uint32_t f = kSlotRed; f <= kSlotBlue; ++f) {
+        ASSERT_EQ(word_of(a.memory.slots.field(f)[s]), word_of(b.memory.slots.field(f)[s]))
+            << (*k)->name << ", slot " << s;
+      }
+    }
   }
 }
 

@@ -23,7 +23,7 @@ struct AnalyticAreaLight {
     UInt kinds;
     Float side;  ///< -1 for flipped normals
   };
-  static inline Place load(const SceneView& scene, const Light& light, Mask active) {
+  static inline Place load(const SceneView& scene, Light light, Mask active) {
     constexpr std::uint32_t kFloats = sizeof(AnalyticRecord) / sizeof(float);
     const UInt record = gather_uint(scene.parameters + 1, light.parameters, active) * UInt(kFloats);
     const auto* words = reinterpret_cast<const float*>(scene.analytics) + sizeof(Placement) / sizeof(float);
@@ -44,18 +44,18 @@ struct AnalyticAreaLight {
     return normalize(place.local_from_world.transposed(local)) * place.side;
   }
 
-  __attribute__((noinline)) static LightSample sample(const SceneView& scene, const Light& light,
-                                                      const Vec3f& reference, Vec2f u, Mask active) {
+  __attribute__((noinline)) static LightSample sample(const SceneView& scene, Light light, Vec3f reference, Vec2f u,
+                                                      Mask active) {
     return seen_from(reference, sample_area(scene, light, u, active), light.area);
   }
 
-  __attribute__((noinline)) static EmittedRay emit(const SceneView& scene, const Light& light, Vec2f position,
-                                                   Vec2f direction, Mask active) {
+  __attribute__((noinline)) static EmittedRay emit(const SceneView& scene, Light light, Vec2f position, Vec2f direction,
+                                                   Mask active) {
     return emit_from_surface(sample_area(scene, light, position, active), light.area, direction);
   }
 
-  __attribute__((noinline)) static Float pdf_sa(const SceneView& scene, const Light& light, const Vec3f& reference,
-                                                const Vec3f& direction, Float distance, Mask active) {
+  __attribute__((noinline)) static Float pdf_sa(const SceneView& scene, Light light, Vec3f reference, Vec3f direction,
+                                                Float distance, Mask active) {
     const Place place = load(scene, light, active);
     const Vec3f local = place.local_from_world.point(fma(direction, distance, reference));
     Vec3f normal{Float(0.0f), Float(0.0f), Float(1.0f)};
@@ -73,7 +73,7 @@ struct AnalyticAreaLight {
     return zero_unless(sampled, pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, cosine));
   }
 
-  static inline AreaPoint sample_area(const SceneView& scene, const Light& light, Vec2f u, Mask active) {
+  static inline AreaPoint sample_area(const SceneView& scene, Light light, Vec2f u, Mask active) {
     const Place place = load(scene, light, active);
     const UInt texture = light_texture(scene, light.parameters, active);
     const Mask textured = active & (texture != UInt(0u));

@@ -12,7 +12,7 @@ namespace norrsken::NORRSKEN_ISA {
 
 /// The radiance of textured lanes. Parameters: the texture's word, uv at the first corner and its change along the two
 /// edges (6 floats), the primitive and the shape (words). Not inlined: few scenes need it, and every BSDF would repeat it.
-__attribute__((noinline)) inline Vec3f flat_texture(const SceneView& scene, const Light& light, UInt texture, Vec2f b,
+__attribute__((noinline)) inline Vec3f flat_texture(const SceneView& scene, Light light, UInt texture, Vec2f b,
                                                     Mask textured) {
   const auto number = [&](int k) { return gather(scene.parameters + k, light.parameters, textured); };
   const auto word = [&](int k) { return gather_uint(scene.parameters + k, light.parameters, textured); };
@@ -23,8 +23,7 @@ __attribute__((noinline)) inline Vec3f flat_texture(const SceneView& scene, cons
 
 /// The shading normals of triangles of smooth meshes, with parameters as above; the light's first corner is the
 /// triangle's.
-__attribute__((noinline)) inline Vec3f flat_shading_normal(const SceneView& scene, const Light& light, Vec2f b,
-                                                           Mask active) {
+__attribute__((noinline)) inline Vec3f flat_shading_normal(const SceneView& scene, Light light, Vec2f b, Mask active) {
   const auto word = [&](int k) { return gather_uint(scene.parameters + k, light.parameters, active); };
   const auto* shapes = reinterpret_cast<const float*>(scene.shapes) + offsetof(ShapeRecord, smooth) / sizeof(float);
   const UInt shape = word(8) * UInt(sizeof(ShapeRecord) / sizeof(float));

@@ -78,7 +78,7 @@ struct PickedLight {
 };
 
 /// The two numbers take turns, so that neither runs out of bits.
-inline PickedLight pick_light_by_place(const SceneView& scene, const Vec3f& reference, Vec2f u, Mask active) {
+inline PickedLight pick_light_by_place(const SceneView& scene, Vec3f reference, Vec2f u, Mask active) {
   UInt around(0u);
   Mask in_tree = active;
   if (scene.lights_around_count > 0) {
@@ -107,7 +107,7 @@ inline PickedLight pick_light_by_place(const SceneView& scene, const Vec3f& refe
 }
 
 /// The probability with which `pick_light_by_place` finds the light. Not inlined: most scenes have few lights.
-__attribute__((noinline)) inline Float light_prob_by_place(const SceneView& scene, UInt light, const Vec3f& reference,
+__attribute__((noinline)) inline Float light_prob_by_place(const SceneView& scene, UInt light, Vec3f reference,
                                                            Mask active) {
   UInt node = gather_uint(reinterpret_cast<const float*>(scene.light_leaves), light, active);
   const Mask in_tree = active & (node != UInt(kNone));

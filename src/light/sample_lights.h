@@ -42,7 +42,7 @@ NORRSKEN_INLINE void add_light_kind(LightKind kind, bool is_delta, const SceneVi
 }
 
 /// Not inlined: every BSDF would repeat the code of every kind of light.
-__attribute__((noinline)) inline LightChoice sample_one_of_many_lights(const SceneView& scene, const Vec3f& reference,
+__attribute__((noinline)) inline LightChoice sample_one_of_many_lights(const SceneView& scene, Vec3f reference,
                                                                        Vec2f pick, Vec2f u, Mask active) {
   const Mask never = Float(1.0f) < Float(0.0f);
   PickedLight picked;
@@ -76,12 +76,12 @@ NORRSKEN_INLINE LightChoice sample_one_light(const SceneView& scene, const Vec3f
       return {PointLight::sample(scene, broadcast_light(record), reference, u, active), Float(1.0f), !never};
     }
   }
-  return sample_one_of_many_lights(scene, reference, pick, u, active);
+  return sample_one_of_many_lights(scene, copied(reference), pick, u, active);
 }
 
 /// The density with which `sample_one_light` finds the point `distance` along `direction`, which lies on `light`.
-inline Float light_pdf_sa(const SceneView& scene, UInt light, const Vec3f& reference, const Vec3f& direction,
-                          Float distance, Mask active) {
+inline Float light_pdf_sa(const SceneView& scene, UInt light, Vec3f reference, Vec3f direction, Float distance,
+                          Mask active) {
   const UInt kinds = gather_light_kind(scene, light, active);
   const Light lanes = gather_light(scene.lights, light, active);
   Float pdf(0.0f);
@@ -98,7 +98,7 @@ inline Float light_pdf_sa(const SceneView& scene, UInt light, const Vec3f& refer
 }
 
 /// What a ray to nowhere sees: the scene's environment.
-inline Vec3f environment_radiance(const SceneView& scene, const Vec3f& direction, Mask active) {
+inline Vec3f environment_radiance(const SceneView& scene, Vec3f direction, Mask active) {
   const LightRecord& record = scene.lights[scene.environment];
   const Light light = broadcast_light(record);
   switch (record.kind) {

@@ -12,8 +12,8 @@
 namespace norrsken::NORRSKEN_ISA {
 
 /// The radiance of textured lanes. Parameters: the texture's word, the shape. Not inlined: few scenes need it.
-__attribute__((noinline)) inline Vec3f sphere_texture(const SceneView& scene, const Light& light, UInt texture,
-                                                      const Vec3f& normal, Mask textured) {
+__attribute__((noinline)) inline Vec3f sphere_texture(const SceneView& scene, Light light, UInt texture, Vec3f normal,
+                                                      Mask textured) {
   const UInt shape = gather_uint(scene.parameters + 1, light.parameters, textured);
   const Vec2f uv = sphere_uv(gather_sphere_rotation(scene, shape, textured).local(normal));
   return select(textured, evaluate_texture(scene, texture, {uv, {}, shape, {}}, textured), light.emission);

@@ -55,6 +55,10 @@ NORRSKEN_INLINE F max_component(const Vec3<F>& a) {
   return max(a.x, max(a.y, a.z));
 }
 
+/// What to hand to a function that is not inlined: made component by component, so that GCC keeps the original in
+/// registers (docs/dev/lanes.md).
+NORRSKEN_INLINE Vec3f copied(const Vec3f& a) { return {a.x, a.y, a.z}; }
+
 /// The largest absolute component.
 NORRSKEN_INLINE Float largest(const Vec3f& a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
 

@@ -9,7 +9,7 @@
 namespace norrsken::NORRSKEN_ISA {
 
 /// The colour of the textures that `words` (see TextureWord) name; for lanes where they name one.
-inline Vec3f evaluate_texture(const SceneView& scene, UInt words, const TexturePoint& point, Mask active) {
+inline Vec3f evaluate_texture(const SceneView& scene, UInt words, TexturePoint point, Mask active) {
   Vec3f color{Float(0.0f), Float(0.0f), Float(0.0f)};
   const UInt kind_bits = words & UInt(kTextureKindMask), offset = words & UInt(kTextureOffsetMask);
 #define NORRSKEN_TEXTURE(kind, Model)                                                                 \
@@ -29,6 +29,7 @@ struct ParameterReader {
   UInt offset;
   const TexturePoint& point;
   Mask active;
+  bool any_textures = scene.texture_kinds != 0;  ///< in the scene
 
   /// A plain float.
   NORRSKEN_INLINE Float number(std::uint32_t k) const { return gather(scene.parameters + k, offset, active); }
@@ -37,18 +38,18 @@ struct ParameterReader {
   /// A colour or its texture: 4 floats.
   NORRSKEN_INLINE Vec3f color(std::uint32_t k) const {
     const Vec3f value = numbers3(k);
-    if (scene.texture_kinds == 0) return value;
+    if (!any_textures) return value;
     const UInt texture = gather_uint(scene.parameters + k + 3, offset, active);
     const Mask textured = active & (texture != UInt(0u));
-    return any(textured) ? select(textured, evaluate_texture(scene, texture, point, textured), value) : value;
+    return any(textured) ? select(textured, evaluate_texture(scene, texture, copied(point), textured), value) : value;
   }
   /// A number or its texture: 2 floats.
   NORRSKEN_INLINE Float scalar(std::uint32_t k) const {
     const Float value = number(k);
-    if (scene.texture_kinds == 0) return value;
+    if (!any_textures) return value;
     const UInt texture = gather_uint(scene.parameters + k + 1, offset, active);
     const Mask textured = active & (texture != UInt(0u));
-    return any(textured) ? select(textured, luminance(evaluate_texture(scene, texture, point, textured)), value)
+    return any(textured) ? select(textured, luminance(evaluate_texture(scene, texture, copied(point), textured)), value)
                          : value;
   }
 };

@@ -19,6 +19,9 @@ struct TexturePoint {
   UInt shape;
   Vec2f barycentric;  ///< of triangles: weights of the second and third corner
 };
+NORRSKEN_INLINE TexturePoint copied(const TexturePoint& p) {
+  return {{p.uv.x, p.uv.y}, p.primitive, p.shape, {p.barycentric.x, p.barycentric.y}};
+}
 
 /// Of linear sRGB; for the numbers that textures of three channels stand for.
 NORRSKEN_INLINE Float luminance(const Vec3f& c) {

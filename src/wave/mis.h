@@ -20,7 +20,7 @@ NORRSKEN_INLINE Float weight_of_found(const SceneView& scene, UInt light, const 
   if (none(competed)) return Float(1.0f);
   const Float light_samples(static_cast<float>(scene.integrator.emitter_samples));
   const Float bsdf_samples(static_cast<float>(scene.integrator.bsdf_samples));
-  const Float light_pdf = light_pdf_sa(scene, light, ray.origin, ray.direction, distance, competed);
+  const Float light_pdf = light_pdf_sa(scene, light, copied(ray.origin), copied(ray.direction), distance, competed);
   return select(competed, power_heuristic(bsdf_samples, ray.pdf_sa, light_samples, light_pdf), Float(1.0f));
 }
 

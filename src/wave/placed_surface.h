@@ -33,14 +33,15 @@ NORRSKEN_INLINE Float rounding_scale(const Affine& world_from_local, const Affin
 }
 
 /// Where the ray met the instance, in the instance's own space.
-__attribute__((noinline)) inline Vec3f hit_in_object(const SceneView& scene, const Hit& hit, Mask active) {
-  const Affine map = object_from_world(scene.instances, hit.instance, active);
-  return fma(map.vector(hit.ray.direction), hit.t, map.point(hit.ray.origin));
+__attribute__((noinline)) inline Vec3f hit_in_object(const SceneView& scene, Vec3f origin, Vec3f direction, Float t,
+                                                     UInt instance, Mask active) {
+  const Affine map = object_from_world(scene.instances, instance, active);
+  return fma(map.vector(direction), t, map.point(origin));
 }
 
 /// From the space of an instance to the world.
-__attribute__((noinline)) inline PlacedSurface surface_in_world(const SceneView& scene, UInt instance,
-                                                                const PlacedSurface& s, Mask active) {
+__attribute__((noinline)) inline PlacedSurface surface_in_world(const SceneView& scene, UInt instance, PlacedSurface s,
+                                                                Mask active) {
   const Affine to = world_from_object(scene.instances, instance, active);
   const Affine from = object_from_world(scene.instances, instance, active);
   PlacedSurface w;
@@ -56,7 +57,7 @@ __attribute__((noinline)) inline PlacedSurface surface_in_world(const SceneView&
 
 /// The point of the analytic shape `analytic` that is next to `p`; `element` is the one of its elements that was hit.
 __attribute__((noinline)) inline PlacedSurface analytic_surface(const SceneView& scene, UInt analytic, UInt element,
-                                                                const Vec3f& p, Mask active) {
+                                                                Vec3f p, Mask active) {
   constexpr std::uint32_t kFloats = sizeof(AnalyticRecord) / sizeof(float);
   const UInt record = analytic * UInt(kFloats);
   const Affine to = gather_affine(scene.analytics->place.world_from_local, record, active);

@@ -65,7 +65,8 @@ NORRSKEN_INLINE void push(Queue& q, const Ray& r, Mask m) {
   q.count += c.count;
 }
 
-NORRSKEN_INLINE Hit load_hit(const SceneView& scene, const Queue& q, std::uint32_t i) {
+template <class Scene>
+NORRSKEN_INLINE Hit load_hit(const Scene& scene, const Queue& q, std::uint32_t i) {
   return {load_ray(q, i),
           load(q.field(kHitDistance) + i),
           load_uint(q.field(kHitPrimitive) + i),
@@ -118,13 +119,16 @@ NORRSKEN_INLINE Mask is_sound(const Ray& ray) {
   return is_ray(ray.origin, ray.direction) & (t.x + t.y + t.z < Float(kInfinity));
 }
 
-/// Gives up the samples of lanes that are not `sound`: NaN is what the film drops and counts. Returns the lanes that are left.
+/// NaN is what the film drops and counts. Not inlined: no good scene needs it.
+__attribute__((noinline)) inline void give_up(const Queue& slots, UInt slot, Mask spoilt) {
+  const Float nan(__builtin_nanf(""));
+  add_radiance(slots, slot, {nan, nan, nan}, spoilt);
+}
+
+/// Gives up the samples of lanes that are not `sound`. Returns the lanes that are left.
 NORRSKEN_INLINE Mask keep_sound(Mask sound, UInt slot, const Queue& slots, Mask active) {
   const Mask spoilt = active & !sound;
-  if (any(spoilt)) {
-    const Float nan(__builtin_nanf(""));
-    add_radiance(slots, slot, {nan, nan, nan}, spoilt);
-  }
+  if (any(spoilt)) give_up(slots, slot, spoilt);
   return active & sound;
 }
 

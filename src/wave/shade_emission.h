@@ -19,7 +19,7 @@ inline void shade_emission(const SceneView& scene, const Queue& light_hits, Queu
       const Mask textured = active & (texture != UInt(0u));
       if (any(textured)) {
         const SurfacePoint surface = make_surface_point(scene, hit, textured);
-        emission = select(textured, evaluate_texture(scene, texture, surface.texture, textured), emission);
+        emission = select(textured, evaluate_texture(scene, texture, copied(surface.texture), textured), emission);
       }
     }
     const Float weight = weight_of_found(scene, light, hit.ray, hit.t, active);

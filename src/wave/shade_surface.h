@@ -5,6 +5,7 @@
 #include "wave/generate_camera_rays.h"
 #include "wave/mis.h"
 #include "wave/perturbed_frame.h"
+#include "wave/plain_scene.h"
 #include "wave/sample_bsdf.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -90,10 +91,10 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
   if (any(active)) push(next_rays, Ray{origin, direction, throughput, pdf, hit.ray.slot}, active);
 }
 
-/// Hits [begin, end) of the queue; begin is a multiple of kLanes. `shadow_rays` has room for all of them.
-template <class Model>
-inline void shade_surface(const SceneView& scene, const ShadeSettings& settings, const Queue& hits, std::uint32_t begin,
-                          std::uint32_t end, const Queue& slots, Queue& shadow_rays, Queue& next_rays) {
+/// `Scene`: SceneView or PlainScene.
+template <class Model, class Scene>
+inline void shade_surface_of(const Scene& scene, const ShadeSettings& settings, const Queue& hits, std::uint32_t begin,
+                             std::uint32_t end, const Queue& slots, Queue& shadow_rays, Queue& next_rays) {
   const Sampler sampler{scene.sampler.kind};
   const bool light_sampling = !Model::kDelta && scene.light_count > 0;
   const bool go_on = settings.next_rays && (Model::kDelta || scene.integrator.diffuse_bounces);
@@ -108,6 +109,17 @@ inline void shade_surface(const SceneView& scene, const ShadeSettings& settings,
     if (light_sampling)
       sample_lights<Model>(scene, settings, sampler, key, hit, surface, map, bsdf, wo, shadow_rays, active);
     if (go_on) sample_next_ray<Model>(scene, settings, sampler, key, hit, surface, map, bsdf, wo, next_rays, active);
+  }
+}
+
+/// Hits [begin, end) of the queue; begin is a multiple of kLanes. `shadow_rays` has room for all of them.
+template <class Model>
+inline void shade_surface(const SceneView& scene, const ShadeSettings& settings, const Queue& hits, std::uint32_t begin,
+                          std::uint32_t end, const Queue& slots, Queue& shadow_rays, Queue& next_rays) {
+  if (PlainScene::is_plain(scene)) {
+    shade_surface_of<Model>(PlainScene(scene), settings, hits, begin, end, slots, shadow_rays, next_rays);
+  } else {
+    shade_surface_of<Model>(scene, settings, hits, begin, end, slots, shadow_rays, next_rays);
   }
 }
 

@@ -21,6 +21,16 @@ struct SurfacePoint {
   TexturePoint texture;
   Vec3f dp_du, dp_dv;
 };
+NORRSKEN_INLINE SurfacePoint copied(const SurfacePoint& s) {
+  return {copied(s.position),
+          copied(s.normal),
+          {copied(s.frame.s), copied(s.frame.t), copied(s.frame.n)},
+          s.side,
+          s.offset,
+          copied(s.texture),
+          copied(s.dp_du),
+          copied(s.dp_dv)};
+}
 
 NORRSKEN_INLINE UInt record_index(UInt primitive) { return primitive * UInt(sizeof(SurfaceRecord) / sizeof(float)); }
 
@@ -66,7 +76,7 @@ struct TrianglePoint {
   }
 };
 
-inline TrianglePoint make_triangle_point(const SceneView& scene, UInt primitive, const Vec3f& p, Mask active) {
+inline TrianglePoint make_triangle_point(const SceneView& scene, UInt primitive, Vec3f p, Mask active) {
   const auto* vertices = reinterpret_cast<const float*>(scene.triangle_vertices);
   const UInt first = primitive * UInt(3u);
   TrianglePoint t;
@@ -83,22 +93,34 @@ inline TrianglePoint make_triangle_point(const SceneView& scene, UInt primitive,
   return t;
 }
 
-inline Vec3f smooth_normal(const SceneView& scene, const TrianglePoint& t, Mask active) {
+inline Vec3f smooth_normal(const SceneView& scene, TrianglePoint t, Mask active) {
   Vec3f normals[3];
   for (int k = 0; k < 3; ++k) normals[k] = gather3(scene.normals, t.vertices[k] * UInt(3u), active);
   return normalize(t.interpolate(normals));
 }
 
-/// Texture coordinates and tangents of triangles; without coordinates of their own they are the barycentric ones, and
-/// the tangents any frame around the normal, as in Mitsuba.
-inline void add_triangle_uv(const SceneView& scene, const TrianglePoint& t, Mask active, SurfacePoint& s) {
-  s.texture.barycentric = select(active, t.barycentric, s.texture.barycentric);
+/// Texture coordinates, and how the position moves with them.
+struct Parametrization {
+  Vec2f uv;
+  Vec3f dp_du, dp_dv;
+};
+
+NORRSKEN_INLINE void set_parametrization(SurfacePoint& s, const Parametrization& p, Mask m) {
+  s.texture.uv = select(m, p.uv, s.texture.uv);
+  s.dp_du = select(m, p.dp_du, s.dp_du);
+  s.dp_dv = select(m, p.dp_dv, s.dp_dv);
+}
+
+/// Of triangles; without coordinates of their own they are the barycentric ones, and the tangents any frame around the
+/// normal, as in Mitsuba.
+inline Parametrization parametrize_triangle(const SceneView& scene, TrianglePoint t, Vec3f normal, UInt shape,
+                                            Mask active) {
   Vec2f uv = t.barycentric;
-  const Frame any_frame = make_frame(s.normal);
+  const Frame any_frame = make_frame(normal);
   Vec3f dp_du = any_frame.s, dp_dv = any_frame.t;
   if (scene.texcoords != nullptr) {
     const auto* shapes = reinterpret_cast<const float*>(scene.shapes);
-    const Mask mapped = active & (gather_uint(shapes + 4, shape_index(s.texture.shape), active) != UInt(0u));
+    const Mask mapped = active & (gather_uint(shapes + 4, shape_index(shape), active) != UInt(0u));
     Vec2f c[3];
     for (int k = 0; k < 3; ++k) {
       const UInt at = t.vertices[k] * UInt(2u);
@@ -116,27 +138,26 @@ inline void add_triangle_uv(const SceneView& scene, const TrianglePoint& t, Mask
     dp_du = select(regular, fma(t.e1, d2.y, t.e2 * -d1.y) * inv, dp_du);
     dp_dv = select(regular, fma(t.e2, d1.x, t.e1 * -d2.x) * inv, dp_dv);
   }
-  s.texture.uv = select(active, uv, s.texture.uv);
-  s.dp_du = select(active, dp_du, s.dp_du);
-  s.dp_dv = select(active, dp_dv, s.dp_dv);
+  return {uv, dp_du, dp_dv};
 }
 
-/// Texture coordinates and tangents of spheres.
-inline void add_sphere_uv(const SceneView& scene, Float radius, Mask active, SurfacePoint& s) {
-  const SphereRotation rotation = gather_sphere_rotation(scene, s.texture.shape, active);
-  const Vec3f local = rotation.local(s.normal);
+/// Of spheres.
+inline Parametrization parametrize_sphere(const SceneView& scene, Float radius, Vec3f normal, UInt shape, Mask active) {
+  const SphereRotation rotation = gather_sphere_rotation(scene, shape, active);
+  const Vec3f local = rotation.local(normal);
   // Derivatives of (cos 2 pi u sin pi v, sin 2 pi u sin pi v, cos pi v).
   const Float sin_theta = sqrt(fma(local.x, local.x, local.y * local.y));
   const Mask pole = !(sin_theta > Float(0.0f));
   const Float inv = Float(1.0f) / sin_theta;
   const Vec2f phi = select(pole, Vec2f{Float(1.0f), Float(0.0f)}, Vec2f{local.x * inv, local.y * inv});
   const Float two_pi_r = radius * Float(2.0f * kPi), pi_r = radius * Float(kPi);
-  s.texture.uv = select(active, sphere_uv(local), s.texture.uv);
-  s.dp_du = select(active, rotation.world({-local.y, local.x, Float(0.0f)}) * two_pi_r, s.dp_du);
-  s.dp_dv = select(active, rotation.world({local.z * phi.x, local.z * phi.y, -sin_theta}) * pi_r, s.dp_dv);
+  return {sphere_uv(local), rotation.world({-local.y, local.x, Float(0.0f)}) * two_pi_r,
+          rotation.world({local.z * phi.x, local.z * phi.y, -sin_theta}) * pi_r};
 }
 
-NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hit& hit, Mask active) {
+/// `Scene`: SceneView or PlainScene.
+template <class Scene>
+NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& hit, Mask active) {
   const float* records = surface_floats(scene);
   const UInt index = record_index(hit.primitive);
   const Vec3f geometry = gather3(records, index, active);
@@ -146,7 +167,11 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
   Mask instanced = Float(1.0f) < Float(0.0f);
   if (scene.instance_count > 0) {
     instanced = active & (hit.instance != UInt(kNone));
-    if (any(instanced)) along = select(instanced, hit_in_object(scene, hit, instanced), along);
+    if (any(instanced))
+      along = select(
+          instanced,
+          hit_in_object(scene, copied(hit.ray.origin), copied(hit.ray.direction), hit.t, hit.instance, instanced),
+          along);
   }
 
   // A triangle's record is its plane: move the point onto it.
@@ -179,31 +204,35 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
     const Mask interpolate = triangle & (smooth != UInt(0u));
     const Mask look = scene.needs_uv ? triangle : interpolate;
     if (any(look)) {
-      const TrianglePoint t = make_triangle_point(scene, hit.primitive, s.position, look);
+      const TrianglePoint t = make_triangle_point(scene, hit.primitive, copied(s.position), look);
       if (any(interpolate)) shading = select(interpolate, smooth_normal(scene, t, interpolate), shading);
-      if (scene.needs_uv) add_triangle_uv(scene, t, triangle, s);
+      if (scene.needs_uv) {
+        s.texture.barycentric = select(triangle, t.barycentric, s.texture.barycentric);
+        set_parametrization(s, parametrize_triangle(scene, t, copied(s.normal), s.texture.shape, triangle), triangle);
+      }
     }
-    if (scene.needs_uv && any(sphere)) add_sphere_uv(scene, fourth, sphere, s);
+    if (scene.needs_uv && any(sphere)) {
+      set_parametrization(s, parametrize_sphere(scene, fourth, copied(s.normal), s.texture.shape, sphere), sphere);
+    }
   }
   if (any(analytic)) {
-    const PlacedSurface p = analytic_surface(scene, bits(geometry.x), bits(geometry.y), along, analytic);
+    const PlacedSurface p = analytic_surface(scene, bits(geometry.x), bits(geometry.y), copied(along), analytic);
     s.position = select(analytic, p.position, s.position);
     s.normal = select(analytic, p.normal, s.normal);
     shading = select(analytic, p.shading, shading);
     scale = select(analytic, p.scale, scale);
-    s.texture.uv = select(analytic, p.uv, s.texture.uv);
-    s.dp_du = select(analytic, p.dp_du, s.dp_du);
-    s.dp_dv = select(analytic, p.dp_dv, s.dp_dv);
+    set_parametrization(s, {p.uv, p.dp_du, p.dp_dv}, analytic);
   }
   if (any(instanced)) {
     const PlacedSurface p = surface_in_world(
-        scene, hit.instance, {s.position, s.normal, shading, scale, s.texture.uv, s.dp_du, s.dp_dv}, instanced);
+        scene, hit.instance,
+        {copied(s.position), copied(s.normal), copied(shading), scale, s.texture.uv, copied(s.dp_du), copied(s.dp_dv)},
+        instanced);
     s.position = select(instanced, p.position, s.position);
     s.normal = select(instanced, p.normal, s.normal);
     shading = select(instanced, p.shading, shading);
     scale = select(instanced, p.scale, scale);
-    s.dp_du = select(instanced, p.dp_du, s.dp_du);
-    s.dp_dv = select(instanced, p.dp_dv, s.dp_dv);
+    set_parametrization(s, {p.uv, p.dp_du, p.dp_dv}, instanced);
   }
   s.offset = scale * Float(kOffsetUlps);
 
@@ -223,9 +252,10 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const SceneView& scene, const Hi
 }
 
 /// The parameters of the model that a hit's material word names.
-NORRSKEN_INLINE ParameterReader parameter_reader(const SceneView& scene, const Hit& hit, const SurfacePoint& surface,
+template <class Scene>
+NORRSKEN_INLINE ParameterReader parameter_reader(const Scene& scene, const Hit& hit, const SurfacePoint& surface,
                                                  Mask active) {
-  return {scene, hit.material & UInt(kMaterialOffsetMask), surface.texture, active};
+  return {scene, hit.material & UInt(kMaterialOffsetMask), surface.texture, active, scene.texture_kinds != 0};
 }
 
 /// Where a ray that leaves towards `side` of the surface begins.
