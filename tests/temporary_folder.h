@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -35,7 +36,10 @@ class TemporaryFolder {
   std::string file(const std::string& name) const { return (path_ / name).string(); }
   /// Writes a file and returns its path.
   std::string write(const std::string& name, std::string_view bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    std::ofstream stream(path_ / name, std::ios::binary);
+    stream << bytes;
+    stream.close();
+    if (!stream) throw std::runtime_error("cannot write " + file(name));
     return file(name);
   }
 

@@ -1,11 +1,9 @@
 // --max-memory as its users meet it, and what it counts against what the system says of the process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstring>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "process_testing.h"
@@ -14,7 +12,6 @@
 namespace norrsken::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;

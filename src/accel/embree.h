@@ -86,7 +86,7 @@ NORRSKEN_INLINE void number_hits(const AccelView& accel, HitPacket& hits, Mask h
 
 /// The closest hit; nearer than infinity for active lanes alone.
 inline ClosestHit closest_in_embree(const SceneView& scene, bool coherent, Vec3f o, Vec3f d, Mask active) {
-  ClosestHit hit{Float(kInfinity), UInt(0u)};
+  ClosestHit hit = no_hit();
   active &= is_ray(o, d);
   auto* embree = static_cast<RTCScene>(scene.accel.embree_scene);
   alignas(64) RTCRayHitNt<kLanes> packet;

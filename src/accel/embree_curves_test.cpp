@@ -54,10 +54,10 @@ class CurveScene {
                                                      R"(</shape></shape><shape type="instance"><ref id="g"/>)" +
                                                      to_world + "</shape>"
                                                : curve + to_world + "</shape>";
-    std::ofstream(folder / "scene.xml")
-        << R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm"/></sensor><emitter type="point"/>)"
-        << shapes << "</scene>";
-    viewed_ = view_scene(folder.file("scene.xml"), AccelKind::embree);
+    const std::string scene =
+        R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm"/></sensor><emitter type="point"/>)" +
+        shapes + "</scene>";
+    viewed_ = view_scene(folder.write("scene.xml", scene), AccelKind::embree);
     world_from_curve_ = glm::translate(glm::dmat4(1), s * glm::dvec3(2, -3, 1)) *
                         glm::rotate(glm::dmat4(1), glm::radians(40.0), glm::dvec3(1, 2, 3)) *
                         glm::scale(glm::dmat4(1), glm::dvec3(s));

@@ -18,6 +18,8 @@ struct ClosestHit {
   UInt instance = UInt(kNone);
 };
 
+NORRSKEN_INLINE ClosestHit no_hit() { return {Float(kInfinity), UInt(0u)}; }
+
 inline constexpr std::uint32_t kBackSide = 0x80000000u;
 inline constexpr std::uint32_t kPrimitiveMask = 0x7fffffffu;
 

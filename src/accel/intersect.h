@@ -44,7 +44,7 @@ NORRSKEN_INLINE Mask occluded_by_moller_trumbore(const SceneView& scene, const V
 /// The closest hit of unit-length rays; `t` is infinite where there is none.
 NORRSKEN_INLINE ClosestHit intersect_closest_lanes(const SceneView& scene, bool coherent, const Vec3f& o,
                                                    const Vec3f& d, Mask active) {
-  ClosestHit hit{Float(kInfinity), UInt(0u)};
+  ClosestHit hit = no_hit();
   switch (scene.accel.kind) {
     case AccelKind::planes:
       closest_in_planes(scene.accel, scene.accel.all, scene.accel.sphere_count, o, d, hit);

@@ -2,6 +2,7 @@
 // whole waves. Hits on an edge may fall to either side where rounding differs, so a share of records may differ; it is
 // bounded, and everything else must agree closely.
 #include "isa/kernel_testing.h"
+#include "tests/temporary_folder.h"
 #include "wave/plain_scene.h"
 
 namespace norrsken {
@@ -229,18 +230,19 @@ TEST_P(Parity, WholeWaves) {
   }
 }
 
-/// The room is shaded by code that knows what a plain scene lacks. Told that something may be smooth, though nothing is, it
-/// goes through the code for all scenes.
-TEST_P(Parity, PlainScenesAreShadedLikeAnyOthers) {
-  ASSERT_TRUE(isa_host::PlainScene::is_plain(scene()));
-  SceneView any_scene = scene();
+/// A plain scene is shaded by code that knows what it lacks. Told that something may be smooth, though nothing is, it goes
+/// through the code for all scenes.
+void expect_same_bits_as_any_scene(const SceneView& scene, const WaveJob& job) {
+  ASSERT_TRUE(isa_host::PlainScene::is_plain(scene));
+  SceneView any_scene = scene;
   any_scene.any_smooth = true;
+  ASSERT_FALSE(isa_host::PlainScene::is_plain(any_scene));
   for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
     Made a(0), b(0);
     WaveCounts counts_a, counts_b;
-    const WaveJob job{300, 500, 16, 8, 0, 8};
-    (*k)->trace_wave(scene(), job, a.memory, counts_a);
+    (*k)->trace_wave(scene, job, a.memory, counts_a);
     (*k)->trace_wave(any_scene, job, b.memory, counts_b);
+    EXPECT_GT(counts_a.shadow_rays, 0u) << (*k)->name;
     EXPECT_EQ(counts_a.shadow_rays, counts_b.shadow_rays) << (*k)->name;
     for (std::uint32_t s = 0; s < job.slot_count(); ++s) {
       for (std::uint32_t f = kSlotRed; f <= kSlotBlue; ++f) {
@@ -249,6 +251,29 @@ TEST_P(Parity, PlainScenesAreShadedLikeAnyOthers) {
       }
     }
   }
+}
+
+TEST_P(Parity, ThePlainRoomIsShadedLikeAnyScene) { expect_same_bits_as_any_scene(scene(), {300, 500, 16, 8, 0, 8}); }
+
+TEST(PlainScenes, AreShadedLikeAnyOtherWhateverTheModel) {
+  std::string xml =
+      R"(<scene version="3.0.0"><integrator type="path"><integer name="max_depth" value="6"/></integrator>)"
+      R"(<sensor type="perspective"><float name="fov" value="60"/><transform name="to_world">)"
+      R"(<lookat origin="0,0,8" target="0,0,0" up="0,1,0"/></transform><film type="hdrfilm">)"
+      R"(<integer name="width" value="32"/><integer name="height" value="32"/></film></sensor>)"
+      R"(<emitter type="constant"/><emitter type="point"><point name="position" x="0" y="0" z="6"/></emitter>)";
+  int placed = 0;
+#define NORRSKEN_BSDF(kind, Model)                                                                                    \
+  xml += R"(<shape type="sphere"><point name="center" x=")" + std::to_string(1.8 * (placed % 4) - 2.7) + R"(" y=")" + \
+         std::to_string(1.8 * (placed / 4) - 1.8) + R"(" z="0"/><bsdf type=")" #kind R"("/></shape>)";                \
+  ++placed;
+#include "bsdf/list.def"
+#undef NORRSKEN_BSDF
+  ASSERT_LE(placed, 12);
+  const TemporaryFolder folder;
+  const auto spheres = view_scene(folder.write("spheres.xml", xml + "</scene>"), AccelKind::planes);
+  ASSERT_NE(spheres, nullptr);
+  expect_same_bits_as_any_scene(spheres->view, {0, 0, 32, 32, 0, 1});
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryAccelerator, Parity,

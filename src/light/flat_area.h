@@ -12,19 +12,20 @@ namespace norrsken::NORRSKEN_ISA {
 
 /// The radiance of textured lanes. Parameters: the texture's word, uv at the first corner and its change along the two
 /// edges (6 floats), the primitive and the shape (words). Not inlined: few scenes need it, and every BSDF would repeat it.
-__attribute__((noinline)) inline Vec3f flat_texture(const SceneView& scene, Light light, UInt texture, Vec2f b,
-                                                    Mask textured) {
-  const auto number = [&](int k) { return gather(scene.parameters + k, light.parameters, textured); };
-  const auto word = [&](int k) { return gather_uint(scene.parameters + k, light.parameters, textured); };
+__attribute__((noinline)) inline Vec3f flat_texture(const SceneView& scene, UInt parameters, Vec3f emission,
+                                                    UInt texture, Vec2f b, Mask textured) {
+  const auto number = [&](int k) { return gather(scene.parameters + k, parameters, textured); };
+  const auto word = [&](int k) { return gather_uint(scene.parameters + k, parameters, textured); };
   const Vec2f uv{fma(b.x, number(3), fma(b.y, number(5), number(1))),
                  fma(b.x, number(4), fma(b.y, number(6), number(2)))};
-  return select(textured, evaluate_texture(scene, texture, {uv, word(7), word(8), b}, textured), light.emission);
+  return select(textured, evaluate_texture(scene, texture, {uv, word(7), word(8), b}, textured), emission);
 }
 
 /// The shading normals of triangles of smooth meshes, with parameters as above; the light's first corner is the
 /// triangle's.
-__attribute__((noinline)) inline Vec3f flat_shading_normal(const SceneView& scene, Light light, Vec2f b, Mask active) {
-  const auto word = [&](int k) { return gather_uint(scene.parameters + k, light.parameters, active); };
+__attribute__((noinline)) inline Vec3f flat_shading_normal(const SceneView& scene, UInt parameters, Vec3f normal,
+                                                           Vec2f b, Mask active) {
+  const auto word = [&](int k) { return gather_uint(scene.parameters + k, parameters, active); };
   const auto* shapes = reinterpret_cast<const float*>(scene.shapes) + offsetof(ShapeRecord, smooth) / sizeof(float);
   const UInt shape = word(8) * UInt(sizeof(ShapeRecord) / sizeof(float));
   const Mask smooth = active & (gather_uint(shapes, shape, active) != UInt(0u));
@@ -35,12 +36,13 @@ __attribute__((noinline)) inline Vec3f flat_shading_normal(const SceneView& scen
     normals[k] = gather3(scene.normals, gather_uint(vertices + k, first, smooth) * UInt(3u), smooth);
   }
   const Vec3f sum = fma(normals[1], b.x, fma(normals[2], b.y, normals[0] * (Float(1.0f) - b.x - b.y)));
-  return select(smooth, normalize(sum), light.normal);
+  return select(smooth, normalize(sum), normal);
 }
 
 template <bool is_triangle>
 struct FlatAreaLight {
-  static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f u,
+  template <class Scene>
+  static NORRSKEN_INLINE LightSample sample(const Scene& scene, const Light& light, const Vec3f& reference, Vec2f u,
                                             Mask active) {
     return seen_from(reference, sample_area(scene, light, u, active), light.area);
   }
@@ -55,7 +57,8 @@ struct FlatAreaLight {
     return emit_from_surface(sample_area(scene, light, position, active), light.area, direction);
   }
 
-  static NORRSKEN_INLINE AreaPoint sample_area(const SceneView& scene, const Light& light, Vec2f u, Mask active) {
+  template <class Scene>
+  static NORRSKEN_INLINE AreaPoint sample_area(const Scene& scene, const Light& light, Vec2f u, Mask active) {
     const Vec2f b = barycentric(u);
     const Vec3f point = fma(light.edge1, b.x, fma(light.edge2, b.y, light.origin));
     const Float scale = largest(light.origin) + largest(light.edge1) + largest(light.edge2);
@@ -67,16 +70,18 @@ struct FlatAreaLight {
                                               Mask active) requires is_triangle {
     const Mask smooth = active & (light.parameters != UInt(kNone));
     if (!scene.any_smooth || none(smooth)) return light.normal;
-    return flat_shading_normal(scene, light, barycentric(u), smooth);
+    return flat_shading_normal(scene, light.parameters, copied(light.normal), barycentric(u), smooth);
   }
 
  private:
   static NORRSKEN_INLINE Vec2f barycentric(Vec2f u) { return is_triangle ? warp_to_triangle(u) : u; }
 
-  static NORRSKEN_INLINE Vec3f radiance_at(const SceneView& scene, const Light& light, Vec2f b, Mask active) {
+  template <class Scene>
+  static NORRSKEN_INLINE Vec3f radiance_at(const Scene& scene, const Light& light, Vec2f b, Mask active) {
     const UInt texture = light_texture(scene, light.parameters, active);
     const Mask textured = active & (texture != UInt(0u));
-    return any(textured) ? flat_texture(scene, light, texture, b, textured) : light.emission;
+    return any(textured) ? flat_texture(scene, light.parameters, copied(light.emission), texture, b, textured)
+                         : light.emission;
   }
 };
 

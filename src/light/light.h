@@ -65,7 +65,8 @@ NORRSKEN_INLINE Light gather_light(const LightRecord* records, UInt index, Mask 
 
 /// The word of the texture that is the radiance of lights on surfaces, 0 for lights of one radiance; `parameters` is
 /// the lights' own.
-NORRSKEN_INLINE UInt light_texture(const SceneView& scene, UInt parameters, Mask active) {
+template <class Scene>
+NORRSKEN_INLINE UInt light_texture(const Scene& scene, UInt parameters, Mask active) {
   if (scene.texture_kinds == 0) return UInt(0u);
   const Mask has_some = active & (parameters != UInt(kNone));
   // Lanes that gather nothing hold anything.

@@ -64,7 +64,8 @@ __attribute__((noinline)) inline LightChoice sample_one_of_many_lights(const Sce
 }
 
 /// `pick` chooses the light, `u` the point on it. The one parallelogram or point of a simple scene is sampled in place.
-NORRSKEN_INLINE LightChoice sample_one_light(const SceneView& scene, const Vec3f& reference, Vec2f pick, Vec2f u,
+template <class Scene>
+NORRSKEN_INLINE LightChoice sample_one_light(const Scene& scene, const Vec3f& reference, Vec2f pick, Vec2f u,
                                              Mask active) {
   if (scene.light_count == 1) {
     const Mask never = Float(1.0f) < Float(0.0f);

@@ -12,11 +12,11 @@
 namespace norrsken::NORRSKEN_ISA {
 
 /// The radiance of textured lanes. Parameters: the texture's word, the shape. Not inlined: few scenes need it.
-__attribute__((noinline)) inline Vec3f sphere_texture(const SceneView& scene, Light light, UInt texture, Vec3f normal,
-                                                      Mask textured) {
-  const UInt shape = gather_uint(scene.parameters + 1, light.parameters, textured);
+__attribute__((noinline)) inline Vec3f sphere_texture(const SceneView& scene, UInt parameters, Vec3f emission,
+                                                      UInt texture, Vec3f normal, Mask textured) {
+  const UInt shape = gather_uint(scene.parameters + 1, parameters, textured);
   const Vec2f uv = sphere_uv(gather_sphere_rotation(scene, shape, textured).local(normal));
-  return select(textured, evaluate_texture(scene, texture, {uv, {}, shape, {}}, textured), light.emission);
+  return select(textured, evaluate_texture(scene, texture, {uv, {}, shape, {}}, textured), emission);
 }
 
 struct SphereAreaLight {
@@ -101,7 +101,9 @@ struct SphereAreaLight {
                                            Mask active) {
     const UInt texture = light_texture(scene, light.parameters, active);
     const Mask textured = active & (texture != UInt(0u));
-    return any(textured) ? sphere_texture(scene, light, texture, outward, textured) : light.emission;
+    return any(textured)
+               ? sphere_texture(scene, light.parameters, copied(light.emission), texture, copied(outward), textured)
+               : light.emission;
   }
 };
 

@@ -29,7 +29,7 @@ struct ParameterReader {
   UInt offset;
   const TexturePoint& point;
   Mask active;
-  bool any_textures = scene.texture_kinds != 0;  ///< in the scene
+  bool any_textures = scene.texture_kinds != 0;  ///< told apart, for a PlainScene knows it when it is compiled
 
   /// A plain float.
   NORRSKEN_INLINE Float number(std::uint32_t k) const { return gather(scene.parameters + k, offset, active); }

@@ -63,7 +63,7 @@ inline void intersect_emitters(const SceneView& scene, const Queue& rays, WaveMe
     Hit hit;
     hit.ray = load_ray(rays, i);
     active = keep_sound(is_sound(hit.ray), hit.ray.slot, memory.slots, active);
-    ClosestHit closest{Float(kInfinity), UInt(0u)};
+    ClosestHit closest = no_hit();
     if (scene.accel.kind == AccelKind::planes && scene.environment == kNone) {
       closest_in_planes(scene.accel, scene.accel.emitters, scene.accel.emitter_sphere_count, hit.ray.origin,
                         hit.ray.direction, closest);

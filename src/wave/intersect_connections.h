@@ -31,11 +31,12 @@ NORRSKEN_INLINE Mask hidden_from_camera(const SceneView& scene, const ShadowRay&
 }
 
 /// The same for a camera that looks through the surfaces of emitters.
-inline Mask hidden_by_others_than_emitters(const SceneView& scene, const ShadowRay& ray, Mask active) {
+inline Mask hidden_by_others_than_emitters(const SceneView& scene, Vec3f origin, Vec3f direction, Float t_max,
+                                           Mask active) {
   Mask hidden = Float(1.0f) < Float(0.0f), open = active;
   Hit hit{};
-  hit.ray.origin = ray.origin, hit.ray.direction = ray.direction;
-  Float rest = ray.t_max;
+  hit.ray.origin = origin, hit.ray.direction = direction;
+  Float rest = t_max;
   for (int skipped = 0; skipped < kMostSkipped && any(open); ++skipped) {
     const ClosestHit closest = intersect_closest_lanes(scene, false, hit.ray.origin, hit.ray.direction, open);
     open &= closest.t < rest;
@@ -56,8 +57,9 @@ inline void intersect_connections(const SceneView& scene, const Queue& connectio
     const Mask active = first_lanes(connections.count - i);
     const Connection connection = load_connection(connections, i);
     const ShadowRay& ray = connection.ray;
-    const Mask hidden =
-        look_through ? hidden_by_others_than_emitters(scene, ray, active) : hidden_from_camera(scene, ray, active);
+    const Mask hidden = look_through ? hidden_by_others_than_emitters(scene, copied(ray.origin), copied(ray.direction),
+                                                                      ray.t_max, active)
+                                     : hidden_from_camera(scene, ray, active);
     const Mask visible = active & !hidden;
     if (none(visible)) continue;
     const Compaction c = make_compaction(visible);

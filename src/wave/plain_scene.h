@@ -1,4 +1,4 @@
-// Scenes whose surfaces are nothing but planes and spheres of one colour each, known when a stage is compiled.
+// Scenes of nothing but flat triangles and spheres, without textures, tangents, maps or instances.
 //
 // What a scene may have costs a scene that does not have it: values that only some branch needs take registers all the
 // same. `shade_surface` is compiled for a `PlainScene` too, without those branches, and computes the same bits.

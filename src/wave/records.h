@@ -119,7 +119,7 @@ NORRSKEN_INLINE Mask is_sound(const Ray& ray) {
   return is_ray(ray.origin, ray.direction) & (t.x + t.y + t.z < Float(kInfinity));
 }
 
-/// NaN is what the film drops and counts. Not inlined: no good scene needs it.
+/// Adds NaN to the slots, which is what the film drops and counts. Not inlined: no good scene needs it.
 __attribute__((noinline)) inline void give_up(const Queue& slots, UInt slot, Mask spoilt) {
   const Float nan(__builtin_nanf(""));
   add_radiance(slots, slot, {nan, nan, nan}, spoilt);

@@ -25,8 +25,8 @@ NORRSKEN_INLINE Float survival_probability(const Vec3f& throughput) {
   return min(max_component(throughput), Float(0.95f));
 }
 
-template <class Model>
-NORRSKEN_INLINE void sample_lights(const SceneView& scene, const ShadeSettings& settings, const Sampler& sampler,
+template <class Model, class Scene>
+NORRSKEN_INLINE void sample_lights(const Scene& scene, const ShadeSettings& settings, const Sampler& sampler,
                                    const SampleKey& key, const Hit& hit, const SurfacePoint& surface,
                                    const Perturbation& map, const typename Model::Parameters& bsdf, const Vec3f& wo,
                                    Queue& shadow_rays, Mask active) {
