@@ -263,10 +263,13 @@ TEST(PlainScenes, AreShadedLikeAnyOtherWhateverTheModel) {
       R"(<integer name="width" value="32"/><integer name="height" value="32"/></film></sensor>)"
       R"(<emitter type="constant"/><emitter type="point"><point name="position" x="0" y="0" z="6"/></emitter>)";
   int placed = 0;
-#define NORRSKEN_BSDF(kind, Model)                                                                                    \
-  xml += R"(<shape type="sphere"><point name="center" x=")" + std::to_string(1.8 * (placed % 4) - 2.7) + R"(" y=")" + \
-         std::to_string(1.8 * (placed / 4) - 1.8) + R"(" z="0"/><bsdf type=")" #kind R"("/></shape>)";                \
-  ++placed;
+  const auto next_place = [&] {
+    const int column = placed % 4, row = placed / 4;
+    ++placed;
+    return "x=\"" + std::to_string(1.8 * column - 2.7) + "\" y=\"" + std::to_string(1.8 * row - 1.8) + "\" z=\"0\"";
+  };
+#define NORRSKEN_BSDF(kind, Model) \
+  xml += R"(<shape type="sphere"><point name="center" )" + next_place() + R"(/><bsdf type=")" #kind R"("/></shape>)";
 #include "bsdf/list.def"
 #undef NORRSKEN_BSDF
   ASSERT_LE(placed, 12);

@@ -11,8 +11,10 @@ namespace norrsken::NORRSKEN_ISA {
 
 /// Its constants hide the scene's own fields.
 struct PlainScene : SceneView {
+  // NOLINTBEGIN(readability-identifier-naming): the names of what they hide
   static constexpr std::uint32_t instance_count = 0, first_analytic = kNone, texture_kinds = 0;
   static constexpr bool any_smooth = false, any_resolved = false, needs_uv = false;
+  // NOLINTEND(readability-identifier-naming)
 
   /// Of a scene that `is_plain`.
   explicit PlainScene(const SceneView& scene) : SceneView(scene) {}
