@@ -20,7 +20,7 @@ using testing::HasSubstr;
 class AtomicFileTest : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_.file(name); }
-  void put(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
+  void put(const std::string& name, const std::string& text) const { folder_.write(name, text); }
   std::string text_of(const std::string& name) const {
     std::ostringstream text;
     text << std::ifstream(path(name)).rdbuf();

@@ -44,7 +44,7 @@ class SectionFile : public testing::Test {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
-  void put(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
+  void put(const std::string& text) const { folder_.write("file", text); }
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder_.path())) names.push_back(entry.path().filename().string());

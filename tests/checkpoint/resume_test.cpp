@@ -222,13 +222,13 @@ TEST_F(Refusals, NameWhatDiffers) {
 /// A mesh or a texture that was edited, though nothing in the scene file was.
 TEST_F(Refusals, NoticeAChangedMeshAndAChangedTexture) {
   const auto write_files = [&](float height, float red) {
-    put(folder_.file("mesh.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 " + std::to_string(height) + "\nf 1 2 3\n");
+    folder_.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 " + std::to_string(height) + "\nf 1 2 3\n");
     Image image;
     image.width = image.height = 2;
     for (const char* name : {"R", "G", "B"}) image.channel(name).values.assign(4, *name == 'R' ? red : 0.5f);
     ASSERT_TRUE(write_image(folder_.file("texture.exr"), image));
   };
-  put(folder_.file("scene.xml"), R"(<scene version="3.0.0"><sensor type="perspective">
+  folder_.write("scene.xml", R"(<scene version="3.0.0"><sensor type="perspective">
     <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/></film></sensor>
     <emitter type="constant"/>
     <shape type="obj"><string name="filename" value="mesh.obj"/>
@@ -344,7 +344,7 @@ TEST_F(Merging, RefusesOverlapsAndStrangers) {
   EXPECT_EQ(complaint({a, a}), "'0_8_0' and '0_8_0' both hold samples 0 to 7");
   EXPECT_EQ(complaint({c, a}), "'8_12_3' is not of the rendering of '0_8_0': seed is 3, not 0");
   EXPECT_EQ(complaint({a, folder_.file("none")}), "there is no file 'none'");
-  put(folder_.file("text"), "a text");
+  folder_.write("text", "a text");
   EXPECT_EQ(complaint({folder_.file("text")}), "'text' does not begin as checkpoints do");
   EXPECT_EQ(complaint({}), "there is nothing to merge");
   std::string damaged = contents(a);
