@@ -111,6 +111,15 @@ NORRSKEN_INLINE void set_parametrization(SurfacePoint& s, const Parametrization&
   s.dp_dv = select(m, p.dp_dv, s.dp_dv);
 }
 
+/// `shading` and `scale` are those that the point's frame and offset will be made of.
+NORRSKEN_INLINE void set_place(SurfacePoint& s, Vec3f& shading, Float& scale, const PlacedSurface& p, Mask m) {
+  s.position = select(m, p.position, s.position);
+  s.normal = select(m, p.normal, s.normal);
+  shading = select(m, p.shading, shading);
+  scale = select(m, p.scale, scale);
+  set_parametrization(s, {p.uv, p.dp_du, p.dp_dv}, m);
+}
+
 /// Of triangles; without coordinates of their own they are the barycentric ones, and the tangents any frame around the
 /// normal, as in Mitsuba.
 inline Parametrization parametrize_triangle(const SceneView& scene, TrianglePoint t, Vec3f normal, UInt shape,
@@ -217,22 +226,14 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& h
   }
   if (any(analytic)) {
     const PlacedSurface p = analytic_surface(scene, bits(geometry.x), bits(geometry.y), copied(along), analytic);
-    s.position = select(analytic, p.position, s.position);
-    s.normal = select(analytic, p.normal, s.normal);
-    shading = select(analytic, p.shading, shading);
-    scale = select(analytic, p.scale, scale);
-    set_parametrization(s, {p.uv, p.dp_du, p.dp_dv}, analytic);
+    set_place(s, shading, scale, p, analytic);
   }
   if (any(instanced)) {
     const PlacedSurface p = surface_in_world(
         scene, hit.instance,
         {copied(s.position), copied(s.normal), copied(shading), scale, s.texture.uv, copied(s.dp_du), copied(s.dp_dv)},
         instanced);
-    s.position = select(instanced, p.position, s.position);
-    s.normal = select(instanced, p.normal, s.normal);
-    shading = select(instanced, p.shading, shading);
-    scale = select(instanced, p.scale, scale);
-    set_parametrization(s, {p.uv, p.dp_du, p.dp_dv}, instanced);
+    set_place(s, shading, scale, p, instanced);
   }
   s.offset = scale * Float(kOffsetUlps);
 
