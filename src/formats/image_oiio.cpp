@@ -24,6 +24,7 @@ namespace {
 using namespace norrsken;
 
 constexpr std::int64_t kRowsAtATime = 64;
+/// A wider row is read alone: OpenImageIO sets memory for 256 rows aside for a block of any height.
 constexpr std::int64_t kValuesAtATime = 1 << 18;
 
 using Input = std::unique_ptr<OIIO::ImageInput>;
@@ -49,27 +50,67 @@ float decoded(float value, bool srgb, bool counted) {
 /// A complaint of OpenImageIO, which may also fail without a word.
 std::string said(const std::string& error) { return error.empty() ? "unknown or damaged image file" : error; }
 
+/// Pixels of the image with its tiles whole.
+std::uint64_t stored_pixels(const OIIO::ImageSpec& spec) {
+  const auto whole = [](int size, int tile) {
+    const std::uint64_t step = std::max(tile, 1);
+    return (static_cast<std::uint64_t>(size) + step - 1) / step * step;
+  };
+  return whole(spec.width, spec.tile_width) * whole(spec.height, spec.tile_height);
+}
+
 /// What decoders hold beside their output at most: many the whole image in the file's types.
-std::uint64_t decoding_bytes(const OIIO::ImageSpec& spec) { return spec.image_bytes(/*native=*/true); }
+std::uint64_t decoding_bytes(const OIIO::ImageSpec& spec) {
+  return stored_pixels(spec) * spec.pixel_bytes(/*native=*/true);
+}
 
 /// Whether a file of so many bytes may hold the image. Deflate makes at most 1032 bytes of one (zlib's manual), runs make
 /// less, and a pixel has a bit or more. Formats that leave out what cannot be seen have no such limit.
 bool may_hold(const OIIO::ImageInput& input, std::size_t file_bytes) {
-  constexpr std::string_view kBounded[] = {"png", "targa", "hdr"};
+  constexpr std::string_view kBounded[] = {"png", "targa", "hdr", "pnm"};
   constexpr std::string_view kBoundedExr[] = {"none", "rle", "zip", "zips", "pxr24"};
   const OIIO::ImageSpec& spec = input.spec();
   const std::string format = input.format_name(), compression = spec.get_string_attribute("compression");
   const bool bounded = std::ranges::find(kBounded, format) != std::end(kBounded) ||
+                       (format == "bmp" && compression.empty()) ||
                        (format == "openexr" && std::ranges::find(kBoundedExr, compression) != std::end(kBoundedExr));
   return !bounded || spec.image_pixels() / (std::size_t{8} * 1032) <= file_bytes;
+}
+
+/// What stands in the way of reading an opened file of so many bytes, or nothing.
+std::string objection_to(const OIIO::ImageInput& input, std::size_t file_bytes) {
+  const OIIO::ImageSpec& spec = input.spec();
+  if (spec.deep || spec.depth > 1) return "deep and volume images are not read";
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
+  const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
+  if (!may_hold(input, file_bytes)) {
+    return "its header says that it has " + size + " pixels, which do not fit a file of " + memory_text(file_bytes);
+  }
+  if (stored_pixels(spec) > kMostImageValues / static_cast<std::size_t>(spec.nchannels)) {
+    const std::string tiles =
+        " in tiles of " + std::to_string(spec.tile_width) + "x" + std::to_string(spec.tile_height);
+    return "it has " + size + " pixels of " + std::to_string(spec.nchannels) + " channels" +
+           (spec.tile_width > 0 ? tiles : "") + ", accepted are " + std::to_string(kMostImageValues) + " values in all";
+  }
+  return {};
 }
 
 /// Whole tiles, and so many rows of a narrow image that calls are few: each may cost tens of megabytes.
 int rows_at_a_time(const OIIO::ImageSpec& spec) {
   const std::int64_t row_values = std::int64_t{spec.nchannels} * spec.width;
   const std::int64_t tile = std::max(spec.tile_height, 1);
-  const std::int64_t rows = std::max(kRowsAtATime, kValuesAtATime / row_values);
+  const std::int64_t rows = row_values > kValuesAtATime ? 1 : std::max(kRowsAtATime, kValuesAtATime / row_values);
   return static_cast<int>(std::min<std::int64_t>((rows + tile - 1) / tile * tile, spec.height));
+}
+
+/// Reads the rows [begin, end), or whole tiles, all channels of a pixel together.
+bool read_rows(OIIO::ImageInput& input, int begin, int end, OIIO::TypeDesc type, void* values) {
+  const OIIO::ImageSpec& spec = input.spec();
+  if (spec.tile_height > 0) {
+    return input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, 0, 1, 0, spec.nchannels, type, values);
+  }
+  if (end - begin == 1) return input.read_scanline(begin, 0, type, values);
+  return input.read_scanlines(0, 0, begin, end, 0, 0, spec.nchannels, type, values);
 }
 
 /// Hands the image to `use(values)` in blocks of rows, all channels one behind the other. Empty, or what is
@@ -82,11 +123,7 @@ std::string for_each_block(OIIO::ImageInput& input, OIIO::TypeDesc type, const U
   std::vector<T> block(row_values * static_cast<std::size_t>(step));
   for (int row = 0; row < spec.height; row += step) {
     const int rows = std::min(step, spec.height - row), begin = spec.y + row;
-    const bool success = spec.tile_height > 0 ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, begin + rows,
-                                                                 0, 1, 0, spec.nchannels, type, block.data())
-                                              : input.read_scanlines(0, 0, begin, begin + rows, 0, 0, spec.nchannels,
-                                                                     type, block.data());
-    if (!success) return said(input.geterror());
+    if (!read_rows(input, begin, begin + rows, type, block.data())) return said(input.geterror());
     use(std::span<const T>(block.data(), row_values * static_cast<std::size_t>(rows)));
   }
   return {};
@@ -146,13 +183,7 @@ std::string read(const std::string& path, const std::string& contents, std::uint
   if (!file.input) return said({});
   OIIO::ImageInput& input = *file.input;
   const OIIO::ImageSpec& spec = input.spec();
-  if (spec.deep || spec.depth > 1) return "deep and volume images are not read";
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
-  if (spec.image_pixels() > kMostImageValues / static_cast<std::size_t>(spec.nchannels)) {
-    return "it has " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + " pixels of " +
-           std::to_string(spec.nchannels) + " channels, accepted are " + std::to_string(kMostImageValues) +
-           " values in all";
-  }
+  if (std::string objection = objection_to(input, contents.size()); !objection.empty()) return objection;
   const std::uint64_t bytes = spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) * sizeof(float);
   if (bytes + decoding_bytes(spec) > most_bytes) {
     return "it needs " + memory_text(bytes + decoding_bytes(spec)) + " of memory, and " + memory_text(most_bytes) +
@@ -219,14 +250,9 @@ std::string read_image_texels(const std::string& path, const std::string& conten
   if (!file.input) return said({});
   OIIO::ImageInput& input = *file.input;
   const OIIO::ImageSpec& spec = input.spec();
-  if (spec.deep || spec.depth > 1) return "deep and volume images are not read";
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
+  if (std::string objection = objection_to(input, contents.size()); !objection.empty()) return objection;
   const std::vector<int> wanted = color_channels(spec);
   const bool small = is_integer_of(spec.format, 1);
-  if (!may_hold(input, contents.size())) {
-    return "its header says that it has " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
-           " pixels, which do not fit a file of " + memory_text(contents.size());
-  }
   image.width = spec.width;
   image.height = spec.height;
   image.channels = static_cast<int>(wanted.size());

@@ -1,6 +1,8 @@
 #include "formats/texel_image.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <sstream>
@@ -30,10 +32,13 @@ std::string little_endian(std::initializer_list<std::pair<std::uint32_t, int>> n
 }
 
 /// 2 x 2, bottom row first: blue, green, red; rows are padded to four bytes.
+std::string bmp_header(std::uint32_t width, std::uint32_t height) {
+  const std::uint32_t row_bytes = (width * 3 + 3) / 4 * 4, bytes = row_bytes * height;
+  return "BM" + little_endian({{54 + bytes, 4}, {0, 4}, {54, 4}, {40, 4}, {width, 4}, {height, 4}, {1, 2}, {24, 2}}) +
+         little_endian({{0, 4}, {bytes, 4}, {2835, 4}, {2835, 4}, {0, 4}, {0, 4}});
+}
 std::string bmp() {
-  return "BM" + little_endian({{70, 4}, {0, 4}, {54, 4}, {40, 4}, {2, 4}, {2, 4}, {1, 2}, {24, 2}, {0, 4}, {16, 4}}) +
-         little_endian({{2835, 4}, {2835, 4}, {0, 4}, {0, 4}}) +
-         std::string("\x07\x08\x09\x0a\x0b\x0c\0\0\x01\x02\x03\x04\x05\x06\0\0", 16);
+  return bmp_header(2, 2) + std::string("\x07\x08\x09\x0a\x0b\x0c\0\0\x01\x02\x03\x04\x05\x06\0\0", 16);
 }
 
 /// 2 x 1, top row first, uncompressed, of 24 bits.
@@ -109,9 +114,51 @@ TEST(TexelImage, HeadersThatPromiseMoreThanTheFileHoldsAreNotBelieved) {
   TexelImage image;
   EXPECT_EQ(read_texels("a.tga", tga(60000, 60000), image),
             "its header says that it has 60000x60000 pixels, which do not fit a file of 24 bytes");
+  EXPECT_EQ(read_texels("a.bmp", bmp_header(20000000, 5), image),
+            "its header says that it has 20000000x5 pixels, which do not fit a file of 54 bytes");
   // What deflate might still make of so few bytes is given up when the file ends.
   const MemoryScope scope(std::make_shared<MemoryBudget>(std::uint64_t{1} << 30));
   EXPECT_NE(read_texels("a.tga", tga(400, 400), image), "");
+}
+
+/// Lets the process set aside so many bytes more than now, touched or not.
+class AddressSpaceLimit {
+ public:
+  explicit AddressSpaceLimit(std::uint64_t bytes_more) {
+    std::uint64_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    getrlimit(RLIMIT_AS, &before_);
+    const rlimit limit{pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes_more, before_.rlim_max};
+    setrlimit(RLIMIT_AS, &limit);
+  }
+  ~AddressSpaceLimit() { setrlimit(RLIMIT_AS, &before_); }
+  AddressSpaceLimit(const AddressSpaceLimit&) = delete;
+  AddressSpaceLimit& operator=(const AddressSpaceLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST(TexelImage, RowsOfMillionsOfPixelsAreReadWithoutGigabytes) {
+  TexelImage image;
+  ASSERT_EQ(read_texels("a.bmp", bmp(), image), "") << "the module and its libraries come with the first image";
+  constexpr std::uint32_t kWidth = 2000000;
+  std::string file = bmp_header(kWidth, 5);
+  for (std::uint32_t i = 0; i < kWidth * 3 * 5; ++i) file += static_cast<char>(i % 251);
+  {
+    const AddressSpaceLimit limit(std::uint64_t{300} << 20);
+    ASSERT_EQ(read_texels("a.bmp", file, image), "");
+  }
+  ASSERT_EQ(image.bytes.size(), std::size_t{kWidth} * 3 * 5);
+  // Bottom row first, blue first.
+  for (const std::uint32_t x : {0u, 1u, kWidth / 2, kWidth - 1}) {
+    for (std::uint32_t y = 0; y < 5; ++y) {
+      const std::uint32_t stored = (4 - y) * kWidth * 3 + x * 3;
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        ASSERT_EQ(image.bytes[(std::size_t{y} * kWidth + x) * 3 + c], (stored + 2 - c) % 251) << x << " " << y;
+      }
+    }
+  }
 }
 
 TEST(TexelImage, WhatItsImageAndItsDecoderTakeIsCounted) {
