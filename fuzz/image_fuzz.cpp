@@ -2,6 +2,7 @@
 // linked, not loaded, so that its coverage is seen; the libraries behind it are not instrumented.
 #include <OpenImageIO/imageio.h>
 
+#include "formats/byte_image.h"
 #include "formats/image_oiio.h"
 #include "fuzz/fuzz.h"
 
@@ -9,9 +10,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace norrsken;
   constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
   const std::string contents(fuzz::text_of(data, size));
+  const bool is_own = is_byte_image(contents);
   std::string error;
   Image image;
-  if (norrsken_oiio_read("input", contents, kMostBytes, image, error)) {
+  const bool is_read = is_own ? (error = read_byte_image(contents, kMostBytes, image)).empty()
+                              : norrsken_oiio_read("input", contents, kMostBytes, image, error);
+  if (is_read) {
     const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     fuzz::require(pixels > 0 && !image.channels.empty(), "an image has pixels");
     for (const Channel& channel : image.channels) fuzz::require(channel.values.size() == pixels, "channels are whole");
@@ -22,7 +26,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   TexelImage texels;
   std::exception_ptr out_of_memory;
   error.clear();
-  if (norrsken_oiio_read_texels("input", contents, texels, error, out_of_memory)) {
+  try {
+    if (is_own) error = read_byte_texels(contents, texels);
+  } catch (const MemoryExceeded& exceeded) {
+    error = exceeded.what();
+  }
+  if (is_own ? error.empty() : norrsken_oiio_read_texels("input", contents, texels, error, out_of_memory)) {
     const auto values = static_cast<std::size_t>(texels.width) * static_cast<std::size_t>(texels.height) *
                         static_cast<std::size_t>(texels.channels);
     fuzz::require(values > 0 && texels.bytes.size() + texels.values.size() == values, "texels are whole");

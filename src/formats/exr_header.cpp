@@ -3,47 +3,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <iterator>
-#include <optional>
+
+#include "formats/bytes.h"
 
 namespace norrsken {
 namespace {
-
-/// Bytes that have not been looked at. What takes more than there are takes nothing.
-class Bytes {
- public:
-  explicit Bytes(std::string_view bytes) : left_(bytes) {}
-
-  bool empty() const { return left_.empty(); }
-  std::size_t size() const { return left_.size(); }
-  char front() const { return left_.front(); }
-
-  std::optional<std::string_view> take(std::size_t count) {
-    if (count > left_.size()) return std::nullopt;
-    const std::string_view taken = left_.substr(0, count);
-    left_.remove_prefix(count);
-    return taken;
-  }
-  /// A text and the zero that ends it.
-  std::optional<std::string_view> take_word() {
-    const std::size_t end = left_.find('\0');
-    if (end == std::string_view::npos) return std::nullopt;
-    const std::string_view word = left_.substr(0, end);
-    left_.remove_prefix(end + 1);
-    return word;
-  }
-  std::optional<std::int32_t> take_int() {
-    std::int32_t value = 0;
-    const auto bytes = take(sizeof value);
-    if (!bytes) return std::nullopt;
-    std::memcpy(&value, bytes->data(), sizeof value);
-    return value;
-  }
-
- private:
-  std::string_view left_;
-};
 
 struct FixedSize {
   std::string_view type;
@@ -87,7 +52,7 @@ bool is_channel_list(Bytes value) {
 
 /// Width, height, and four bytes for each pixel.
 bool is_preview(Bytes value) {
-  const auto width = value.take_int(), height = value.take_int();
+  const auto width = value.take<std::int32_t>(), height = value.take<std::int32_t>();
   if (!width || !height || *width < 0 || *height < 0) return false;
   return value.size() % 4 == 0 && std::uint64_t(*width) * std::uint64_t(*height) == value.size() / 4;
 }
@@ -95,7 +60,7 @@ bool is_preview(Bytes value) {
 /// Texts, each behind its length.
 bool is_string_vector(Bytes value) {
   while (!value.empty()) {
-    const auto length = value.take_int();
+    const auto length = value.take<std::int32_t>();
     if (!length || *length < 0 || !value.take(static_cast<std::size_t>(*length))) return false;
   }
   return true;
@@ -117,7 +82,7 @@ bool fits(std::string_view type, std::string_view value) {
 bool exr_attributes_fit(std::string_view file) {
   constexpr std::int32_t kMultipart = 0x1000;
   Bytes bytes(file);
-  const auto magic = bytes.take_int(), version = bytes.take_int();
+  const auto magic = bytes.take<std::int32_t>(), version = bytes.take<std::int32_t>();
   if (!magic || !version) return false;
   // A header ends with an empty name, the headers of several parts with an empty header.
   for (bool begins = true; !bytes.empty();) {
@@ -130,7 +95,7 @@ bool exr_attributes_fit(std::string_view file) {
     begins = false;
     if (!bytes.take_word()) return false;
     const auto type = bytes.take_word();
-    const auto size = bytes.take_int();
+    const auto size = bytes.take<std::int32_t>();
     if (!type || !size || *size < 0) return false;
     const auto value = bytes.take(static_cast<std::size_t>(*size));
     if (!value || !fits(*type, *value)) return false;

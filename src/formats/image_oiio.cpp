@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <initializer_list>
 #include <iterator>
@@ -18,6 +19,7 @@
 #include "base/memory.h"
 #include "color/srgb.h"
 #include "formats/exr_header.h"
+#include "formats/image_size.h"
 
 namespace {
 
@@ -67,12 +69,11 @@ std::uint64_t decoding_bytes(const OIIO::ImageSpec& spec) {
 /// Whether a file of so many bytes may hold the image. Deflate makes at most 1032 bytes of one (zlib's manual), runs make
 /// less, and a pixel has a bit or more. Formats that leave out what cannot be seen have no such limit.
 bool may_hold(const OIIO::ImageInput& input, std::size_t file_bytes) {
-  constexpr std::string_view kBounded[] = {"png", "targa", "hdr", "pnm"};
+  constexpr std::string_view kBounded[] = {"png", "hdr", "pnm"};
   constexpr std::string_view kBoundedExr[] = {"none", "rle", "zip", "zips", "pxr24"};
   const OIIO::ImageSpec& spec = input.spec();
   const std::string format = input.format_name(), compression = spec.get_string_attribute("compression");
   const bool bounded = std::ranges::find(kBounded, format) != std::end(kBounded) ||
-                       (format == "bmp" && compression.empty()) ||
                        (format == "openexr" && std::ranges::find(kBoundedExr, compression) != std::end(kBoundedExr));
   return !bounded || spec.image_pixels() / (std::size_t{8} * 1032) <= file_bytes;
 }
@@ -82,15 +83,11 @@ std::string objection_to(const OIIO::ImageInput& input, std::size_t file_bytes) 
   const OIIO::ImageSpec& spec = input.spec();
   if (spec.deep || spec.depth > 1) return "deep and volume images are not read";
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
-  const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
-  if (!may_hold(input, file_bytes)) {
-    return "its header says that it has " + size + " pixels, which do not fit a file of " + memory_text(file_bytes);
-  }
+  if (!may_hold(input, file_bytes)) return does_not_fit(spec.width, spec.height, file_bytes);
   if (stored_pixels(spec) > kMostImageValues / static_cast<std::size_t>(spec.nchannels)) {
-    const std::string tiles =
-        " in tiles of " + std::to_string(spec.tile_width) + "x" + std::to_string(spec.tile_height);
-    return "it has " + size + " pixels of " + std::to_string(spec.nchannels) + " channels" +
-           (spec.tile_width > 0 ? tiles : "") + ", accepted are " + std::to_string(kMostImageValues) + " values in all";
+    const std::string tiles = " in tiles of " + size_text(spec.tile_width, spec.tile_height);
+    return too_many_values(size_text(spec.width, spec.height) + " pixels" + (spec.tile_width > 0 ? tiles : ""),
+                           spec.nchannels);
   }
   return {};
 }
@@ -130,24 +127,42 @@ std::string for_each_block(OIIO::ImageInput& input, OIIO::TypeDesc type, const U
 }
 
 /// Formats that are read, by OpenImageIO's names, and their extensions. It knows more, but each is one more parser for a
-/// damaged file to break, and those that need a file of their own on disk could not be read from memory.
+/// damaged file to break, and those that need a file of their own on disk could not be read from memory. BMP and TGA are
+/// read without it (formats/byte_image.h says why).
 struct Format {
   const char* name;
   std::initializer_list<const char*> extensions;
 };
 const Format kFormats[] = {{"openexr", {"exr"}},      {"png", {"png"}},
                            {"jpeg", {"jpg", "jpeg"}}, {"hdr", {"hdr", "rgbe"}},
-                           {"bmp", {"bmp"}},          {"pnm", {"pfm", "ppm", "pgm", "pbm", "pnm"}},
-                           {"targa", {"tga"}},        {"tiff", {"tif", "tiff"}}};
+                           {"tiff", {"tif", "tiff"}}, {"pnm", {"pfm", "ppm", "pgm", "pbm", "pnm"}}};
+
+/// A file in memory. OpenImageIO 2.4's own reads far outside of it once a decoder has been sent there, as by the offsets in
+/// an EXR.
+class MemoryReader final : public OIIO::Filesystem::IOMemReader {
+ public:
+  explicit MemoryReader(const std::string& contents) : IOMemReader(contents.data(), contents.size()) {}
+
+  std::size_t pread(void* buffer, std::size_t size, std::int64_t offset) override {
+    const std::int64_t end = m_buf.size();
+    if (offset < 0 || offset >= end) return 0;
+    const std::size_t held = std::min(size, static_cast<std::size_t>(end - offset));
+    std::memcpy(buffer, m_buf.data() + offset, held);
+    return held;
+  }
+  std::size_t read(void* buffer, std::size_t size) override {
+    const std::size_t held = pread(buffer, size, m_pos);
+    m_pos += static_cast<std::int64_t>(held);
+    return held;
+  }
+};
 
 /// A file in memory, opened by OpenImageIO.
 struct OpenImage {
-  explicit OpenImage(const std::string& contents)
-      : may_be_exr(norrsken::exr_attributes_fit(contents)),
-        bytes(const_cast<char*>(contents.data()), contents.size()) {}
+  explicit OpenImage(const std::string& contents) : may_be_exr(exr_attributes_fit(contents)), bytes(contents) {}
 
   bool may_be_exr;
-  OIIO::Filesystem::IOMemReader bytes;
+  MemoryReader bytes;
   Input input;  ///< empty if it could not be opened
 };
 

@@ -17,10 +17,3 @@ extern "C" bool norrsken_oiio_read(const std::string& path, const std::string& c
 extern "C" bool norrsken_oiio_read_texels(const std::string& path, const std::string& contents,
                                           norrsken::TexelImage& image, std::string& error,
                                           std::exception_ptr& out_of_memory) noexcept;
-
-namespace norrsken {
-
-/// Values that an image may have in all, so that a forged header cannot ask for all the memory: 4 GiB of float.
-inline constexpr std::size_t kMostImageValues = std::size_t{1} << 30;
-
-}  // namespace norrsken

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/regular_file.h"
+#include "formats/byte_image.h"
 #include "formats/image_oiio.h"
 #include "norrsken/image.h"
 
@@ -62,19 +63,28 @@ IoStatus read_image(const std::string& path, Image& image, std::uint64_t most_by
     return failure(path, (is_about_file ? "it " : "") + error);
   }
 
+  const std::uint64_t left = most_bytes - std::min<std::uint64_t>(most_bytes, contents->size());
   Image read;
-  auto* reader = find_entry<decltype(norrsken_oiio_read)>("norrsken_oiio_read", error);
-  if (reader == nullptr ||
-      !reader(path, *contents, most_bytes - std::min<std::uint64_t>(most_bytes, contents->size()), read, error))
-    return failure(path, error);
+  if (is_byte_image(*contents)) {
+    error = read_byte_image(*contents, left, read);
+  } else {
+    auto* reader = find_entry<decltype(norrsken_oiio_read)>("norrsken_oiio_read", error);
+    if (reader != nullptr) reader(path, *contents, left, read, error);
+  }
+  if (!error.empty()) return failure(path, error);
   image = std::move(read);
   return {};
 }
 
 std::string read_texels(const std::string& path, const std::string& contents, TexelImage& image) {
   std::string error;
-  auto* reader = find_entry<decltype(norrsken_oiio_read_texels)>("norrsken_oiio_read_texels", error);
   TexelImage read;
+  if (is_byte_image(contents)) {
+    error = read_byte_texels(contents, read);
+    if (error.empty()) image = std::move(read);
+    return error;
+  }
+  auto* reader = find_entry<decltype(norrsken_oiio_read_texels)>("norrsken_oiio_read_texels", error);
   std::exception_ptr out_of_memory;
   if (reader != nullptr && reader(path, contents, read, error, out_of_memory)) image = std::move(read);
   if (out_of_memory) std::rethrow_exception(out_of_memory);
