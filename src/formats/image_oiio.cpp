@@ -83,6 +83,12 @@ std::string objection_to(const OIIO::ImageInput& input, std::size_t file_bytes) 
   const OIIO::ImageSpec& spec = input.spec();
   if (spec.deep || spec.depth > 1) return "deep and volume images are not read";
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
+  // Their conversion writes past its buffer (OpenImageIO's issue 5315).
+  constexpr int kSeparated = 5;
+  if (spec.get_int_attribute("tiff:PhotometricInterpretation") == kSeparated &&
+      spec.get_int_attribute("oiio:BitsPerSample", 8) < 8) {
+    return "it holds inks (CMYK) of fewer than 8 bits, accepted are 8 and more";
+  }
   if (!may_hold(input, file_bytes)) return does_not_fit(spec.width, spec.height, file_bytes);
   if (stored_pixels(spec) > kMostImageValues / static_cast<std::size_t>(spec.nchannels)) {
     const std::string tiles = " in tiles of " + size_text(spec.tile_width, spec.tile_height);

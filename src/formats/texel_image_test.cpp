@@ -7,6 +7,8 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "norrsken/image.h"
 #include "tests/temporary_folder.h"
@@ -110,6 +112,34 @@ TEST(TexelImage, HeadersThatPromiseMoreThanTheFileHoldsAreNotBelieved) {
   // What deflate might still make of so few bytes is given up when the file ends.
   const MemoryScope scope(std::make_shared<MemoryBudget>(std::uint64_t{1} << 30));
   EXPECT_NE(read_texels("a.ppm", ppm(200, 200, "123456"), image), "");
+}
+
+/// A TIFF of one pixel of four inks.
+std::string tiff_of_inks(std::uint16_t bits) {
+  std::string ifd, file("II*\0\x08\0\0\0", 8);
+  const std::vector<std::pair<int, std::vector<int>>> entries = {
+      {256, {1}}, {257, {1}}, {258, {bits, bits, bits, bits}},
+      {259, {1}}, {262, {5}}, {273, {8 + 2 + 9 * 12 + 4 + 8}},
+      {277, {4}}, {278, {1}}, {279, {4}}};
+  const auto put = [&](int value, int bytes) {
+    for (int i = 0; i < bytes; ++i) file += static_cast<char>(value >> (8 * i));
+  };
+  put(static_cast<int>(entries.size()), 2);
+  for (const auto& [tag, values] : entries) {
+    put(tag, 2), put(3, 2), put(static_cast<int>(values.size()), 4);
+    put(values.size() > 1 ? 8 + 2 + 9 * 12 + 4 : values[0], 4);
+  }
+  put(0, 4);
+  for (int i = 0; i < 4; ++i) put(bits, 2);
+  return file + std::string("\x10\x20\x30\x40", 4);
+}
+
+TEST(TexelImage, InksAreReadUnlessTheirDecoderWouldWritePastItsBuffer) {
+  TexelImage image;
+  EXPECT_EQ(read_texels("a.tif", tiff_of_inks(8), image), "");
+  EXPECT_EQ(image.channels, 3);
+  EXPECT_EQ(read_texels("a.tif", tiff_of_inks(4), image),
+            "it holds inks (CMYK) of fewer than 8 bits, accepted are 8 and more");
 }
 
 /// Lets the process set aside so many bytes more than now, touched or not.
