@@ -61,7 +61,7 @@ fuzz:  ## every fuzz target for ten minutes (FUZZ_SECONDS=600)
 fuzz-quick:  ## every fuzz target for one minute
 fuzz: FUZZ_SECONDS ?= 600
 fuzz-quick: FUZZ_SECONDS ?= 60
-# What `make test` says should not depend on luck; `make fuzz` looks elsewhere each time.
+# `make test` looks in about the same places each time, `make fuzz` elsewhere.
 fuzz-quick: export FUZZ_SEED ?= 1
 fuzz fuzz-quick:
 	@scripts/install_dependencies.sh test

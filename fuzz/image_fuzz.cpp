@@ -2,7 +2,7 @@
 // linked, not loaded, so that its coverage is seen; the libraries behind it are not instrumented.
 #include <OpenImageIO/imageio.h>
 
-#include "formats/byte_image.h"
+#include "formats/raster_image.h"
 #include "formats/image_oiio.h"
 #include "fuzz/fuzz.h"
 
@@ -10,10 +10,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace norrsken;
   constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
   const std::string contents(fuzz::text_of(data, size));
-  const bool is_own = is_byte_image(contents);
+  const bool is_own = is_raster_image(contents);
   std::string error;
   Image image;
-  const bool is_read = is_own ? (error = read_byte_image(contents, kMostBytes, image)).empty()
+  const bool is_read = is_own ? (error = read_raster_image(contents, kMostBytes, image)).empty()
                               : norrsken_oiio_read("input", contents, kMostBytes, image, error);
   if (is_read) {
     const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::exception_ptr out_of_memory;
   error.clear();
   try {
-    if (is_own) error = read_byte_texels(contents, texels);
+    if (is_own) error = read_raster_texels(contents, texels);
   } catch (const MemoryExceeded& exceeded) {
     error = exceeded.what();
   }

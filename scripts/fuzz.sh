@@ -2,7 +2,7 @@
 # Runs the fuzz targets of build/fuzz: `make fuzz` and `make fuzz-quick`.
 #   scripts/fuzz.sh SECONDS JOBS [TARGET ...]
 # What a target learns is kept in build/fuzz/learned/TARGET; an input that it fails on becomes out/fuzz/TARGET-..., its
-# log out/fuzz/TARGET.log. FUZZ_SEED in the environment: the seed, so that a run is as good as repeated. Exit status 1 if any
+# log out/fuzz/TARGET.log. FUZZ_SEED in the environment: the seed. (Runs of one seed are alike, not the same.) Exit status 1 if any
 # target has failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -28,8 +28,6 @@ fuzz_one() {
                  -artifact_prefix=out/fuzz/"$name"- -verbosity=1)
   [[ -n ${FUZZ_SEED:-} ]] && options+=(-seed="$FUZZ_SEED")
   [[ $name == xml ]] && options+=(-dict=build/fuzz/xml.dict)
-  # libpng leaves OpenImageIO's functions by longjmp, past what their strings hold.
-  [[ $name == image ]] && local -x ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0
   local status=0
   "$programs/fuzz_$name" "${options[@]}" "${corpora[@]}" > "$log" 2>&1 || status=$?
   # The leak checker stops all threads to look, which now and then it may not or cannot: that says nothing of the target.

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "formats/byte_image.h"
 #include "formats/bytes.h"
 #include "formats/image_size.h"
+#include "formats/raster_image.h"
 
 namespace norrsken {
 namespace {
@@ -197,7 +197,7 @@ bool read_runs(Bytes data, int bits, Indices& indices) {
 
 bool is_bmp(std::string_view contents) { return contents.starts_with("BM"); }
 
-std::string read_bmp(std::string_view contents, ByteImage& image) {
+std::string read_bmp(std::string_view contents, RasterImage& image) {
   Header header;
   if (std::string error = read_header(contents, header); !error.empty()) return error;
   const std::int64_t height = std::abs(header.height);

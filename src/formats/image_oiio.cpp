@@ -69,7 +69,7 @@ std::uint64_t decoding_bytes(const OIIO::ImageSpec& spec) {
 /// Whether a file of so many bytes may hold the image. Deflate makes at most 1032 bytes of one (zlib's manual), runs make
 /// less, and a pixel has a bit or more. Formats that leave out what cannot be seen have no such limit.
 bool may_hold(const OIIO::ImageInput& input, std::size_t file_bytes) {
-  constexpr std::string_view kBounded[] = {"png", "hdr", "pnm"};
+  constexpr std::string_view kBounded[] = {"hdr", "pnm"};
   constexpr std::string_view kBoundedExr[] = {"none", "rle", "zip", "zips", "pxr24"};
   const OIIO::ImageSpec& spec = input.spec();
   const std::string format = input.format_name(), compression = spec.get_string_attribute("compression");
@@ -133,15 +133,17 @@ std::string for_each_block(OIIO::ImageInput& input, OIIO::TypeDesc type, const U
 }
 
 /// Formats that are read, by OpenImageIO's names, and their extensions. It knows more, but each is one more parser for a
-/// damaged file to break, and those that need a file of their own on disk could not be read from memory. BMP and TGA are
-/// read without it (formats/byte_image.h says why).
+/// damaged file to break, and those that need a file of their own on disk could not be read from memory. BMP, PNG
+/// and TGA are read without it (formats/raster_image.h says why).
 struct Format {
   const char* name;
   std::initializer_list<const char*> extensions;
 };
-const Format kFormats[] = {{"openexr", {"exr"}},      {"png", {"png"}},
-                           {"jpeg", {"jpg", "jpeg"}}, {"hdr", {"hdr", "rgbe"}},
-                           {"tiff", {"tif", "tiff"}}, {"pnm", {"pfm", "ppm", "pgm", "pbm", "pnm"}}};
+const Format kFormats[] = {{"openexr", {"exr"}},
+                           {"jpeg", {"jpg", "jpeg"}},
+                           {"hdr", {"hdr", "rgbe"}},
+                           {"tiff", {"tif", "tiff"}},
+                           {"pnm", {"pfm", "ppm", "pgm", "pbm", "pnm"}}};
 
 /// A file in memory. OpenImageIO 2.4's own reads far outside of it once a decoder has been sent there, as by the offsets in
 /// an EXR.

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/regular_file.h"
-#include "formats/byte_image.h"
 #include "formats/image_oiio.h"
+#include "formats/raster_image.h"
 #include "norrsken/image.h"
 
 namespace norrsken {
@@ -65,8 +65,8 @@ IoStatus read_image(const std::string& path, Image& image, std::uint64_t most_by
 
   const std::uint64_t left = most_bytes - std::min<std::uint64_t>(most_bytes, contents->size());
   Image read;
-  if (is_byte_image(*contents)) {
-    error = read_byte_image(*contents, left, read);
+  if (is_raster_image(*contents)) {
+    error = read_raster_image(*contents, left, read);
   } else {
     auto* reader = find_entry<decltype(norrsken_oiio_read)>("norrsken_oiio_read", error);
     if (reader != nullptr) reader(path, *contents, left, read, error);
@@ -79,8 +79,8 @@ IoStatus read_image(const std::string& path, Image& image, std::uint64_t most_by
 std::string read_texels(const std::string& path, const std::string& contents, TexelImage& image) {
   std::string error;
   TexelImage read;
-  if (is_byte_image(contents)) {
-    error = read_byte_texels(contents, read);
+  if (is_raster_image(contents)) {
+    error = read_raster_texels(contents, read);
     if (error.empty()) image = std::move(read);
     return error;
   }

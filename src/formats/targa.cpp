@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "formats/byte_image.h"
 #include "formats/bytes.h"
 #include "formats/image_size.h"
+#include "formats/raster_image.h"
 
 namespace norrsken {
 namespace {
@@ -106,7 +106,7 @@ std::string append_pixels(const Header& header, std::string_view palette, Bytes 
 }
 
 /// Makes the top left pixel the first one.
-void turn(const Header& header, ByteImage& image) {
+void turn(const Header& header, RasterImage& image) {
   constexpr int kFromTheRight = 0x10, kFromTheTop = 0x20;
   const std::ptrdiff_t row = std::ptrdiff_t{image.width} * image.channels;
   auto* const bytes = image.bytes.data();
@@ -132,7 +132,7 @@ bool is_targa(std::string_view contents) {
   return header && is_plausible(*header);
 }
 
-std::string read_targa(std::string_view contents, ByteImage& image) {
+std::string read_targa(std::string_view contents, RasterImage& image) {
   const auto header = header_of(contents);
   if (!header || !is_plausible(*header)) return "unknown or damaged image file";
   if (header->width < 1 || header->height < 1) return "it has no pixels";

@@ -1,5 +1,5 @@
-// BMP and TGA files, made byte by byte.
-#include "formats/byte_image.h"
+// BMP and TGA files, made byte by byte, and what becomes of them.
+#include "formats/raster_image.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "color/srgb.h"
 #include "tests/temporary_folder.h"
@@ -48,19 +49,19 @@ struct BmpFile {
 };
 
 /// What is read of it, which must be without complaint.
-ByteImage bmp(const BmpFile& file) {
-  ByteImage image;
+RasterImage bmp(const BmpFile& file) {
+  RasterImage image;
   EXPECT_TRUE(is_bmp(file.text()));
   EXPECT_EQ(read_bmp(file.text(), image), "");
   return image;
 }
 std::string bmp_complaint(const BmpFile& file) {
-  ByteImage image;
+  RasterImage image;
   return read_bmp(file.text(), image);
 }
 
 TEST(Bmp, RowsAreReadFromTheBottomAndColoursFromBlue) {
-  const ByteImage image = bmp({.height = 2, .pixels = "\7\10\11\12\13\14\0\0\1\2\3\4\5\6\0\0"s});
+  const RasterImage image = bmp({.height = 2, .pixels = "\7\10\11\12\13\14\0\0\1\2\3\4\5\6\0\0"s});
   EXPECT_EQ(image.width, 2);
   EXPECT_EQ(image.height, 2);
   EXPECT_EQ(image.channels, 3);
@@ -87,7 +88,7 @@ TEST(Bmp, PalettesOfEightFourAndOneBits) {
 }
 
 TEST(Bmp, APaletteOfGreysMakesAGreyImage) {
-  const ByteImage image = bmp({.bits = 1, .behind_header = "\1\1\1\0\xff\xff\xff\0"s, .pixels = "\x40\0\0\0"s});
+  const RasterImage image = bmp({.bits = 1, .behind_header = "\1\1\1\0\xff\xff\xff\0"s, .pixels = "\x40\0\0\0"s});
   EXPECT_EQ(image.channels, 1);
   EXPECT_EQ(image.bytes, (Bytes8{1, 255}));
 }
@@ -105,7 +106,7 @@ TEST(Bmp, SixteenBitsAreFiveOfEachUnlessMasksSayOtherwise) {
 TEST(Bmp, ThirtyTwoBitsHaveAlphaIfItsMaskIsThere) {
   EXPECT_EQ(bmp({.width = 1, .bits = 32, .pixels = "\1\2\3\4"s}).bytes, (Bytes8{3, 2, 1}));
   const std::string masks = little_endian({{0xff, 4}, {0xff00, 4}, {0xff0000, 4}, {0xff000000, 4}});
-  const ByteImage image =
+  const RasterImage image =
       bmp({.width = 1, .bits = 32, .compression = 6, .behind_header = masks, .pixels = "\1\2\3\4"s});
   EXPECT_EQ(image.channels, 4);
   EXPECT_EQ(image.bytes, (Bytes8{1, 2, 3, 4}));
@@ -132,7 +133,7 @@ std::string indices_in_runs(std::uint32_t bits, std::int32_t width, std::int32_t
   BmpFile file{.width = width, .height = height, .bits = bits, .compression = bits == 8 ? 1u : 2u, .pixels = runs};
   for (char i = 0; i < 16; ++i) file.behind_header += {i, i, i, 0};
   file.colors = 16;
-  ByteImage image;
+  RasterImage image;
   const std::string complaint = read_bmp(file.text(), image);
   return complaint.empty() ? std::string(image.bytes.begin(), image.bytes.end()) : complaint;
 }
@@ -180,7 +181,7 @@ TEST(Bmp, WhatIsNotReadIsRefused) {
   file.header_bytes = 13;
   EXPECT_EQ(bmp_complaint(file), "its header has 13 bytes, accepted are 12 and from 40 on");
   const std::string whole = BmpFile{.bits = 1, .colors = 2}.text();
-  ByteImage image;
+  RasterImage image;
   for (std::size_t size = 2; size < whole.size(); ++size) {
     EXPECT_EQ(read_bmp(whole.substr(0, size), image), "its header is cut off") << size;
   }
@@ -203,14 +204,14 @@ struct TgaFile {
   }
 };
 
-ByteImage tga(const TgaFile& file) {
-  ByteImage image;
+RasterImage tga(const TgaFile& file) {
+  RasterImage image;
   EXPECT_TRUE(is_targa(file.text()));
   EXPECT_EQ(read_targa(file.text(), image), "");
   return image;
 }
 std::string tga_complaint(const TgaFile& file) {
-  ByteImage image;
+  RasterImage image;
   return read_targa(file.text(), image);
 }
 
@@ -218,14 +219,14 @@ TEST(Targa, ColoursOfEveryDepth) {
   EXPECT_EQ(tga({.pixels = "\3\2\1\6\5\4"}).bytes, (Bytes8{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(tga({.bits = 16, .pixels = "\0\x7c\1\x82"s}).bytes, (Bytes8{255, 0, 0, 0, 132, 8}));
   EXPECT_EQ(tga({.bits = 15, .width = 1, .pixels = "\xe0\3"}).bytes, (Bytes8{0, 255, 0}));
-  const ByteImage image = tga({.bits = 32, .width = 1, .pixels = "\3\2\1\4"});
+  const RasterImage image = tga({.bits = 32, .width = 1, .pixels = "\3\2\1\4"});
   EXPECT_EQ(image.channels, 4);
   EXPECT_EQ(image.bytes, (Bytes8{1, 2, 3, 4}));
 }
 
 TEST(Targa, GreyWithAndWithoutAlpha) {
   EXPECT_EQ(tga({.type = 3, .bits = 8, .pixels = "\1\2"}).bytes, (Bytes8{1, 2}));
-  const ByteImage image = tga({.type = 3, .bits = 16, .width = 1, .pixels = "\1\2"});
+  const RasterImage image = tga({.type = 3, .bits = 16, .width = 1, .pixels = "\1\2"});
   EXPECT_EQ(image.channels, 2);
   EXPECT_EQ(image.bytes, (Bytes8{1, 2}));
 }
@@ -296,7 +297,7 @@ TEST(Targa, OnlyItsOwnHeadersAreTakenForIt) {
   EXPECT_FALSE(is_targa(TgaFile{.type = 1, .bits = 8}.text())) << "no palette";
 }
 
-TEST(ByteImage, BecomesChannelsOfLinearColourAndTexelsWithoutAlpha) {
+TEST(RasterImage, BecomesChannelsOfLinearColourAndTexelsWithoutAlpha) {
   const TemporaryFolder folder;
   const std::string contents = TgaFile{.bits = 32, .pixels = "\3\2\1\x33\6\5\4\xff"}.text();
   Image image;
@@ -317,15 +318,15 @@ TEST(ByteImage, BecomesChannelsOfLinearColourAndTexelsWithoutAlpha) {
   EXPECT_EQ(texels.bytes, (Bytes8{1, 3}));
 }
 
-TEST(ByteImage, MemoryIsCounted) {
+TEST(RasterImage, MemoryIsCounted) {
   const std::string contents = TgaFile{.pixels = "\3\2\1\6\5\4"}.text();
   Image image;
-  EXPECT_EQ(read_byte_image(contents, 6 + 24, image), "");
-  EXPECT_NE(read_byte_image(contents, 6 + 23, image), "");
+  EXPECT_EQ(read_raster_image(contents, 6 + 24, image), "");
+  EXPECT_NE(read_raster_image(contents, 6 + 23, image), "");
   const auto budget = std::make_shared<MemoryBudget>(5);
   const MemoryScope scope(budget);
   TexelImage texels;
-  EXPECT_THROW(read_byte_texels(contents, texels), MemoryExceeded);
+  EXPECT_THROW(read_raster_texels(contents, texels), MemoryExceeded);
   EXPECT_EQ(budget->used(), 0u);
 }
 

@@ -1,0 +1,122 @@
+#include <png.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <csetjmp>
+#include <cstddef>
+#include <cstdint>
+
+#include "formats/image_size.h"
+#include "formats/raster_image.h"
+
+namespace norrsken {
+namespace {
+
+/// All that the decoder touches and that has a destructor lives outside of the functions that libpng jumps back to.
+struct Job {
+  std::string_view left;  ///< of the file
+  std::string error;
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  png_uint_32 width = 0, height = 0;
+  int bits = 0, channels = 0, passes = 0;
+  std::size_t row_bytes = 0;
+
+  ~Job() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+[[noreturn]] void on_error(png_structp png, png_const_charp message) {
+  static_cast<Job*>(png_get_error_ptr(png))->error = message;
+  png_longjmp(png, 1);
+}
+
+void on_warning(png_structp, png_const_charp) {}
+
+void on_read(png_structp png, png_bytep bytes, std::size_t count) {
+  std::string_view& left = static_cast<Job*>(png_get_io_ptr(png))->left;
+  if (count > left.size()) png_error(png, "it is cut off");
+  std::copy_n(left.data(), count, reinterpret_cast<char*>(bytes));
+  left.remove_prefix(count);
+}
+
+/// Reads what stands before the pixels, and asks for them as 8 or 16 bits without palettes. Nothing here may own anything:
+/// on an error libpng leaves it through longjmp.
+void read_header(Job& job) {
+  if (setjmp(png_jmpbuf(job.png))) return;
+  png_set_read_fn(job.png, &job, on_read);
+  png_set_user_limits(job.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  png_read_info(job.png, job.info);
+  job.width = png_get_image_width(job.png, job.info);
+  job.height = png_get_image_height(job.png, job.info);
+  png_set_expand(job.png);
+  if constexpr (std::endian::native == std::endian::little) png_set_swap(job.png);
+  job.passes = png_set_interlace_handling(job.png);
+  png_read_update_info(job.png, job.info);
+  job.bits = png_get_bit_depth(job.png, job.info);
+  job.channels = png_get_channels(job.png, job.info);
+  job.row_bytes = png_get_rowbytes(job.png, job.info);
+}
+
+/// The next row of the pass; to be called as often as the image has rows.
+bool read_row(Job& job, png_bytep row) {
+  if (setjmp(png_jmpbuf(job.png))) return false;
+  png_read_row(job.png, row, nullptr);
+  return true;
+}
+
+/// Reads the pixels. Memory grows with the rows that are there, unless a pass has pixels of all of them.
+template <class T>
+void read_rows(Job& job, Array<T>& values) {
+  const std::size_t row_values = job.row_bytes / sizeof(T);
+  values.reserve(row_values * job.height);
+  if (job.passes > 1) values.resize(row_values * job.height);
+  for (int pass = 0; pass < job.passes; ++pass) {
+    for (std::size_t y = 0; y < job.height; ++y) {
+      values.resize(std::max(values.size(), row_values * (y + 1)));
+      if (!read_row(job, reinterpret_cast<png_bytep>(values.data() + row_values * y))) return;
+    }
+  }
+}
+
+/// Whether the file says that its colours are stored as they are.
+bool is_linear(const Job& job) {
+  double gamma = 0;
+  return png_get_valid(job.png, job.info, PNG_INFO_sRGB) == 0 && png_get_gAMA(job.png, job.info, &gamma) != 0 &&
+         std::abs(gamma - 1) < 0.01;
+}
+
+}  // namespace
+
+bool is_png(std::string_view contents) { return contents.starts_with("\x89PNG\r\n\x1a\n"); }
+
+std::string read_png(std::string_view contents, RasterImage& image) {
+  Job job;
+  job.left = contents;
+  job.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
+  if (job.png != nullptr) job.info = png_create_info_struct(job.png);
+  if (job.info == nullptr) return "not enough memory";
+  read_header(job);
+  if (!job.error.empty()) return job.error;
+  // Deflate makes at most 1032 bytes of one (zlib's manual), and a pixel has a bit or more.
+  const std::uint64_t pixels = std::uint64_t{job.width} * job.height;
+  if (pixels / (std::uint64_t{8} * 1032) > contents.size()) return does_not_fit(job.width, job.height, contents.size());
+  if (pixels > kMostImageValues / job.channels) {
+    return too_many_values(size_text(job.width, job.height) + " pixels", job.channels);
+  }
+  image.width = static_cast<int>(job.width);
+  image.height = static_cast<int>(job.height);
+  image.channels = job.channels;
+  image.is_linear = is_linear(job);
+  png_textp texts = nullptr;
+  const int count = png_get_text(job.png, job.info, &texts, nullptr);
+  for (int i = 0; i < count; ++i) image.metadata[texts[i].key] = texts[i].text;
+  if (job.bits == 16) {
+    read_rows(job, image.words);
+  } else {
+    read_rows(job, image.bytes);
+  }
+  return job.error;
+}
+
+}  // namespace norrsken
