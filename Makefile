@@ -71,9 +71,9 @@ fuzz fuzz-quick:
 
 # The fast part of the suite for `make test`: what reads files, and what has threads. The address and undefined-behaviour
 # sanitizers go by way of the fuzz build, which has them too: its libraries are built anyway.
-ASAN_TESTS := text_test parameters_test mitsuba_xml_test mitsuba_element_test xml_document_test obj_test ply_test \
-  serialized_test vol_test curves_test section_file_test image_file_test film_test work_plan_test cli_arguments_test \
-  repeatability_test traps_test path_trace_test hostile_files_test stopping_test
+ASAN_TESTS := text_test raster_image_test texel_image_test parameters_test mitsuba_xml_test mitsuba_element_test \
+  xml_document_test obj_test ply_test serialized_test vol_test curves_test section_file_test image_file_test film_test \
+  work_plan_test cli_arguments_test repeatability_test traps_test path_trace_test hostile_files_test stopping_test
 TSAN_TESTS := work_plan_test repeatability_test stopping_test cli_interrupt_test
 
 .PHONY: sanitize-quick asan-ubsan-quick tsan-quick
