@@ -107,7 +107,7 @@ int rows_at_a_time(const OIIO::ImageSpec& spec) {
 }
 
 /// Reads the rows [begin, end), or whole tiles, all channels of a pixel together.
-bool read_rows(OIIO::ImageInput& input, int begin, int end, OIIO::TypeDesc type, void* values) {
+bool read_rows(OIIO::ImageInput& input, int begin, int end, const OIIO::TypeDesc& type, void* values) {
   const OIIO::ImageSpec& spec = input.spec();
   if (spec.tile_height > 0) {
     return input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, 0, 1, 0, spec.nchannels, type, values);
@@ -119,7 +119,7 @@ bool read_rows(OIIO::ImageInput& input, int begin, int end, OIIO::TypeDesc type,
 /// Hands the image to `use(values)` in blocks of rows, all channels one behind the other. Empty, or what is
 /// wrong with the file.
 template <class T, class Use>
-std::string for_each_block(OIIO::ImageInput& input, OIIO::TypeDesc type, const Use& use) {
+std::string for_each_block(OIIO::ImageInput& input, const OIIO::TypeDesc& type, const Use& use) {
   const OIIO::ImageSpec& spec = input.spec();
   const int step = rows_at_a_time(spec);
   const std::size_t row_values = static_cast<std::size_t>(spec.nchannels) * static_cast<std::size_t>(spec.width);
