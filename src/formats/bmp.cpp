@@ -35,7 +35,7 @@ struct Header {
   std::array<Mask, 4> masks;   ///< red, green, blue, alpha of 16 and 32 bits
   std::vector<Color> palette;  ///< of 1, 4 and 8 bits
 
-  int channels() const {
+  int count_channels() const {
     if (bits > 8) return masks[3].bits != 0 ? 4 : 3;
     return std::ranges::all_of(palette, [](const Color& c) { return c[0] == c[1] && c[1] == c[2]; }) ? 1 : 3;
   }
@@ -70,13 +70,14 @@ std::string read_masks(HeaderBytes& bytes, bool alpha, Header& header) {
 }
 
 std::string read_palette(Bytes bytes, std::uint32_t count, int bytes_per_color, Header& header) {
-  for (std::uint32_t i = 0; i < count; ++i) {
+  // Where the pixels begin it ends, whatever the header says.
+  while (header.palette.size() < count) {
     const auto color = bytes.take(bytes_per_color);
-    if (!color) return "its palette is cut off";
+    if (!color) break;
     const auto channel = [&](int c) { return static_cast<std::uint8_t>((*color)[c]); };
     header.palette.push_back({channel(2), channel(1), channel(0)});
   }
-  return {};
+  return header.palette.empty() ? "it has no palette" : "";
 }
 
 /// The compression that BITMAPINFOHEADER and its successors tell, and the palette.
@@ -100,17 +101,22 @@ std::string read_info(HeaderBytes& bytes, Header& header) {
 
 std::string read_header(std::string_view contents, Header& header) {
   constexpr std::size_t kPixelsAt = 10, kFileHeaderBytes = 14;
-  const std::string_view here = contents.substr(std::min(kFileHeaderBytes, contents.size()));
+  const auto pixels_at = Bytes(contents.substr(std::min(kPixelsAt, contents.size()))).take<std::uint32_t>();
+  if (!pixels_at) return "its header is cut off";
+  const std::string_view before_pixels = contents.substr(0, std::max<std::size_t>(*pixels_at, kFileHeaderBytes));
+  const std::string_view here = before_pixels.substr(kFileHeaderBytes);
   Bytes behind(here);
   const auto header_bytes = behind.take<std::uint32_t>();
-  if (!header_bytes) return "its header is cut off";
+  const char* const cut_off =
+      before_pixels.size() < contents.size() ? "its pixels begin within its header" : "its header is cut off";
+  if (!header_bytes) return cut_off;
   if (*header_bytes != kCoreBytes && *header_bytes < kInfoBytes) {
     return "its header has " + std::to_string(*header_bytes) + " bytes, accepted are 12 and from 40 on";
   }
-  if (!behind.take(*header_bytes - sizeof(std::uint32_t))) return "its header is cut off";
+  if (!behind.take(*header_bytes - sizeof(std::uint32_t))) return cut_off;
   HeaderBytes bytes{here.substr(0, *header_bytes), behind};
   const bool is_core = *header_bytes == kCoreBytes;
-  header.pixels_at = *Bytes(contents.substr(kPixelsAt)).take<std::uint32_t>();
+  header.pixels_at = *pixels_at;
   header.width = is_core ? bytes.at<std::uint16_t>(4) : bytes.at<std::int32_t>(4);
   header.height = is_core ? bytes.at<std::uint16_t>(6) : bytes.at<std::int32_t>(8);
   header.bits = bytes.at<std::uint16_t>(is_core ? 10 : 14);
@@ -125,8 +131,7 @@ std::string read_header(std::string_view contents, Header& header) {
 }
 
 /// Appends the pixels of a row. False if one has a colour that the palette has not.
-bool append_row(const Header& header, const std::uint8_t* row, Array<std::uint8_t>& bytes) {
-  const int channels = header.channels();
+bool append_row(const Header& header, int channels, const std::uint8_t* row, Array<std::uint8_t>& bytes) {
   for (std::int64_t x = 0; x < header.width; ++x) {
     if (header.bits == 24) {
       bytes.insert(bytes.end(), {row[3 * x + 2], row[3 * x + 1], row[3 * x]});
@@ -151,6 +156,7 @@ class Indices {
       : width_(width), height_(height), values_(static_cast<std::size_t>(width * height)) {}
 
   bool is_full() const { return y_ >= height_; }
+  bool is_complete() const { return is_full() || (y_ == height_ - 1 && x_ >= width_); }
   void put(int value) {
     if (x_ < width_) values_[static_cast<std::size_t>(y_ * width_ + x_)] = static_cast<std::uint8_t>(value);
     ++x_;
@@ -172,7 +178,7 @@ bool read_runs(Bytes data, int bits, Indices& indices) {
   };
   for (;;) {
     const auto count = data.take<std::uint8_t>(), value = data.take<std::uint8_t>();
-    if (!count || !value) return false;
+    if (!count || !value) return indices.is_complete();  // some leave the mark of the end out
     if (*count == 0 && *value == kEndOfImage) return true;
     if (indices.is_full()) return false;
     if (*count > 0) {
@@ -202,9 +208,14 @@ std::string read_bmp(std::string_view contents, RasterImage& image) {
   if (std::string error = read_header(contents, header); !error.empty()) return error;
   const std::int64_t height = std::abs(header.height);
   if (header.width < 1 || height < 1) return "it has no pixels";
-  if (static_cast<std::uint64_t>(header.width) >
-      kMostImageValues / (static_cast<std::uint64_t>(height) * header.channels())) {
-    return too_many_values(size_text(header.width, height) + " pixels", header.channels());
+  const int channels = header.count_channels();
+  if (static_cast<std::uint64_t>(header.width) > kMostImageValues / (static_cast<std::uint64_t>(height) * channels)) {
+    return too_many_values(size_text(header.width, height) + " pixels", channels);
+  }
+  // Runs may leave out as much as they like, which none does.
+  constexpr std::uint64_t kMostPixelsOfAByte = 8 * 1032;
+  if (static_cast<std::uint64_t>(header.width * height) / kMostPixelsOfAByte > contents.size()) {
+    return does_not_fit(header.width, height, contents.size());
   }
   const std::string_view data = contents.substr(std::min<std::size_t>(header.pixels_at, contents.size()));
   const auto* pixels = reinterpret_cast<const std::uint8_t*>(data.data());
@@ -225,11 +236,11 @@ std::string read_bmp(std::string_view contents, RasterImage& image) {
   }
   image.width = static_cast<int>(header.width);
   image.height = static_cast<int>(height);
-  image.channels = header.channels();
+  image.channels = channels;
   image.bytes.reserve(static_cast<std::size_t>(header.width * height * image.channels));
   for (std::int64_t y = 0; y < height; ++y) {
     const std::int64_t stored = header.height < 0 ? y : height - 1 - y;
-    if (!append_row(header, pixels + stored * row_bytes, image.bytes)) return kNotInPalette;
+    if (!append_row(header, channels, pixels + stored * row_bytes, image.bytes)) return kNotInPalette;
   }
   return {};
 }

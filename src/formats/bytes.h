@@ -1,6 +1,7 @@
 // Little-endian values taken from the front of a file's bytes.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <optional>
@@ -11,6 +12,8 @@ namespace norrsken {
 
 /// Bytes that have not been looked at. What takes more than there are takes nothing.
 class Bytes {
+  static_assert(std::endian::native == std::endian::little);
+
  public:
   explicit Bytes(std::string_view bytes) : left_(bytes) {}
 

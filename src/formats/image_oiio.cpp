@@ -83,11 +83,11 @@ std::string objection_to(const OIIO::ImageInput& input, std::size_t file_bytes) 
   const OIIO::ImageSpec& spec = input.spec();
   if (spec.deep || spec.depth > 1) return "deep and volume images are not read";
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "it has no pixels";
-  // Their conversion writes past its buffer (OpenImageIO's issue 5315).
+  // Their conversion writes past its buffer (OpenImageIO's issue 5315 and pull request 5475).
   constexpr int kSeparated = 5;
   if (spec.get_int_attribute("tiff:PhotometricInterpretation") == kSeparated &&
-      spec.get_int_attribute("oiio:BitsPerSample", 8) < 8) {
-    return "it holds inks (CMYK) of fewer than 8 bits, accepted are 8 and more";
+      (spec.tile_width > 0 || spec.get_int_attribute("oiio:BitsPerSample", 8) < 8)) {
+    return "it holds inks (CMYK) in tiles or of fewer than 8 bits, accepted are strips of 8 bits and more";
   }
   if (!may_hold(input, file_bytes)) return does_not_fit(spec.width, spec.height, file_bytes);
   if (stored_pixels(spec) > kMostImageValues / static_cast<std::size_t>(spec.nchannels)) {

@@ -40,21 +40,31 @@ void on_read(png_structp png, png_bytep bytes, std::size_t count) {
   left.remove_prefix(count);
 }
 
-/// Reads what stands before the pixels, and asks for them as 8 or 16 bits without palettes. Nothing here may own anything:
-/// on an error libpng leaves it through longjmp.
+/// Reads what stands before the pixels. Nothing here may own anything: on an error libpng leaves it through longjmp.
 void read_header(Job& job) {
   if (setjmp(png_jmpbuf(job.png))) return;
   png_set_read_fn(job.png, &job, on_read);
   png_set_user_limits(job.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  // Chunks may be compressed, and libpng keeps them all: 32 of a MiB are enough. Colour profiles are not looked at.
+  png_set_chunk_cache_max(job.png, 32);
+  png_set_chunk_malloc_max(job.png, png_alloc_size_t{1} << 20);
+  png_set_keep_unknown_chunks(job.png, PNG_HANDLE_CHUNK_NEVER, reinterpret_cast<png_const_bytep>("iCCP"), 1);
   png_read_info(job.png, job.info);
   job.width = png_get_image_width(job.png, job.info);
   job.height = png_get_image_height(job.png, job.info);
+  const bool is_palette = png_get_color_type(job.png, job.info) == PNG_COLOR_TYPE_PALETTE;
+  const bool has_alpha_key = png_get_valid(job.png, job.info, PNG_INFO_tRNS) != 0;
+  job.channels = (is_palette ? 3 : png_get_channels(job.png, job.info)) + (has_alpha_key ? 1 : 0);
+}
+
+/// Asks for the pixels as 8 or 16 bits without palettes, for which libpng allocates rows. As above.
+void begin_pixels(Job& job) {
+  if (setjmp(png_jmpbuf(job.png))) return;
   png_set_expand(job.png);
   if constexpr (std::endian::native == std::endian::little) png_set_swap(job.png);
   job.passes = png_set_interlace_handling(job.png);
   png_read_update_info(job.png, job.info);
   job.bits = png_get_bit_depth(job.png, job.info);
-  job.channels = png_get_channels(job.png, job.info);
   job.row_bytes = png_get_rowbytes(job.png, job.info);
 }
 
@@ -104,6 +114,10 @@ std::string read_png(std::string_view contents, RasterImage& image) {
   if (pixels > kMostImageValues / job.channels) {
     return too_many_values(size_text(job.width, job.height) + " pixels", job.channels);
   }
+  // libpng holds two rows, and two more to undo the interlacing, each of up to 8 bytes a pixel.
+  const MemoryReservation decoder(std::uint64_t{4} * 8 * job.width);
+  begin_pixels(job);
+  if (!job.error.empty()) return job.error;
   image.width = static_cast<int>(job.width);
   image.height = static_cast<int>(job.height);
   image.channels = job.channels;

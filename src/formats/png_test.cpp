@@ -8,6 +8,7 @@
 
 #include "color/srgb.h"
 #include "formats/raster_image.h"
+#include "tests/address_space_limit.h"
 
 namespace norrsken {
 namespace {
@@ -23,6 +24,7 @@ struct PngFile {
   double gamma = 0;  ///< if not 0
   std::vector<png_color> palette = {};
   std::string palette_alpha = {};
+  std::string title = "rummet";  ///< compressed
 
   std::string text() const {
     std::string file;
@@ -38,10 +40,11 @@ struct PngFile {
     const auto* alpha = reinterpret_cast<const std::uint8_t*>(palette_alpha.data());
     if (!palette_alpha.empty()) png_set_tRNS(png, info, alpha, static_cast<int>(palette_alpha.size()), nullptr);
     png_text note{};
-    char key[] = "Title", value[] = "rummet";
-    note.compression = PNG_TEXT_COMPRESSION_NONE;
+    char key[] = "Title";
+    std::string value = title;
+    note.compression = PNG_TEXT_COMPRESSION_zTXt;
     note.key = key;
-    note.text = value;
+    note.text = value.data();
     png_set_text(png, info, &note, 1);
     png_write_info(png, info);
     const std::size_t row = png_get_rowbytes(png, info);
@@ -131,16 +134,41 @@ TEST(Png, DamageIsToldAndCostsNoMemory) {
   EXPECT_EQ(budget->used(), 0u);
 }
 
-TEST(Png, HeadersThatPromiseMoreThanTheFileHoldsAreNotBelieved) {
-  std::string file = PngFile{.pixels = "\1\2"}.text();
-  // A header of 50000 x 40000 pixels with its checksum.
-  const std::string header = "IHDR\0\0\xc3\x50\0\0\x9c\x40\x08\0\0\0\0"s;
+TEST(Png, TextThatIsLongOnceItIsUnpackedIsLeftOut) {
+  PngFile file{.pixels = "\1\2"};
+  file.title = std::string(4 << 20, 'x');
+  const std::string contents = file.text();
+  ASSERT_LT(contents.size(), 10000u);
+  RasterImage image;
+  const AddressSpaceLimit limit(std::uint64_t{64} << 20);
+  EXPECT_EQ(read_png(contents, image), "");
+  EXPECT_EQ(image.bytes, (Bytes8{1, 2}));
+  EXPECT_TRUE(image.metadata.empty());
+}
+
+/// The file with a header of other measures, and its checksum.
+std::string with_size(std::string file, std::uint32_t width, std::uint32_t height) {
+  std::string header = "IHDR";
+  for (const std::uint32_t size : {width, height}) {
+    for (int shift = 24; shift >= 0; shift -= 8) header += static_cast<char>(size >> shift & 0xff);
+  }
+  header += file.substr(24, 5);
   const auto crc = crc32(0, reinterpret_cast<const std::uint8_t*>(header.data()), static_cast<unsigned>(header.size()));
   file.replace(12, header.size(), header);
-  for (int i = 0; i < 4; ++i) file[29 + i] = static_cast<char>(crc >> (24 - 8 * i));
+  for (int i = 0; i < 4; ++i) file[29 + i] = static_cast<char>(crc >> (24 - 8 * i) & 0xff);
+  return file;
+}
+
+TEST(Png, HeadersThatPromiseMoreThanTheFileHoldsAreNotBelieved) {
+  const std::string file = PngFile{.pixels = "\1\2"}.text();
+  const AddressSpaceLimit limit(std::uint64_t{64} << 20);
   RasterImage image;
-  EXPECT_EQ(read_png(file, image), "its header says that it has 50000x40000 pixels, which do not fit a file of " +
-                                       std::to_string(file.size()) + " bytes");
+  EXPECT_EQ(read_png(with_size(file, 50000, 40000), image),
+            "its header says that it has 50000x40000 pixels, which do not fit a file of " +
+                std::to_string(file.size()) + " bytes");
+  EXPECT_EQ(read_png(with_size(file, 1u << 30, 1), image),
+            "its header says that it has 1073741824x1 pixels, which do not fit a file of " +
+                std::to_string(file.size()) + " bytes");
 }
 
 }  // namespace

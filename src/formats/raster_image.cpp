@@ -13,12 +13,8 @@ namespace norrsken {
 namespace {
 
 std::string read(std::string_view contents, RasterImage& image) {
-  try {
-    if (is_png(contents)) return read_png(contents, image);
-    return is_bmp(contents) ? read_bmp(contents, image) : read_targa(contents, image);
-  } catch (const std::bad_alloc&) {
-    return "not enough memory";
-  }
+  if (is_png(contents)) return read_png(contents, image);
+  return is_bmp(contents) ? read_bmp(contents, image) : read_targa(contents, image);
 }
 
 /// Channels that are colour or grey.
@@ -74,7 +70,7 @@ std::string read_raster_image(std::string_view contents, std::uint64_t most_byte
   return "not enough memory";
 }
 
-std::string read_raster_texels(std::string_view contents, TexelImage& image) {
+std::string read_raster_texels(std::string_view contents, TexelImage& image) try {
   RasterImage raster;
   if (std::string error = read(contents, raster); !error.empty()) return error;
   image.width = raster.width;
@@ -87,6 +83,8 @@ std::string read_raster_texels(std::string_view contents, TexelImage& image) {
   image.values.reserve(raster.words.size());
   for (const std::uint16_t word : raster.words) image.values.push_back(static_cast<float>(word) / 65535.0f);
   return {};
+} catch (const std::bad_alloc&) {
+  return "not enough memory";
 }
 
 }  // namespace norrsken

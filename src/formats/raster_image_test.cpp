@@ -143,6 +143,7 @@ TEST(Bmp, RunsOfEightBits) {
   EXPECT_EQ(indices_in_runs(8, 2, 2, "\2\1\0\0\2\2\0\1"s), "\2\2\1\1") << "the bottom row first";
   EXPECT_EQ(indices_in_runs(8, 2, 3, "\1\1\0\2\0\2\1\5\0\1"s), "\0\5\0\0\1\0"s) << "what is passed over is zero";
   EXPECT_EQ(indices_in_runs(8, 2, 1, "\4\1\0\1"s), "\1\1") << "what is right of the image is not in it";
+  EXPECT_EQ(indices_in_runs(8, 2, 1, "\2\7"s), "\7\7") << "the mark of the end may be missing";
 }
 
 TEST(Bmp, RunsOfFourBits) {
@@ -153,7 +154,7 @@ TEST(Bmp, RunsOfFourBits) {
 TEST(Bmp, RunsThatLeaveTheImageAreRefused) {
   const std::string complaint = "its pixels are cut off, or more than it has room for";
   for (const std::string& runs :
-       {""s, "\1"s, "\1\1"s, "\0\0\1\1\0\1"s, "\0\2\0"s, "\0\2\0\1\1\1\0\1"s, "\0\3\1\2\3"s}) {
+       {""s, "\1"s, "\1\1"s, "\1\1\0"s, "\0\0\1\1\0\1"s, "\0\2\0"s, "\0\2\0\1\1\1\0\1"s, "\0\3\1\2\3"s}) {
     EXPECT_EQ(indices_in_runs(8, 2, 1, runs), complaint);
   }
   EXPECT_EQ(indices_in_runs(8, 1, 1, "\1\x10\0\1"s), "a pixel has a colour that its palette lacks");
@@ -168,11 +169,20 @@ TEST(Bmp, WhatIsNotReadIsRefused) {
   EXPECT_EQ(bmp_complaint({.bits = 24, .compression = 3}), "its 24 bits a pixel are compressed in way 3" + ways);
   EXPECT_EQ(bmp_complaint({.bits = 7}), "it has 7 bits a pixel, accepted are 1, 4, 8, 16, 24 and 32");
   EXPECT_EQ(bmp_complaint({.bits = 4, .colors = 17}), "it has a palette of 17 colours, accepted are 16");
-  EXPECT_EQ(bmp_complaint({.bits = 4, .colors = 16}), "its palette is cut off");
+  EXPECT_EQ(bmp_complaint({.bits = 4, .colors = 16}), "it has no palette");
+  std::string inside = BmpFile{.pixels = std::string(100, 'x')}.text();
+  inside[10] = 53;
   EXPECT_EQ(bmp_complaint({.width = -2}), "it has no pixels");
   EXPECT_EQ(bmp_complaint({.height = 0}), "it has no pixels");
   EXPECT_EQ(bmp_complaint({.height = std::numeric_limits<std::int32_t>::min()}),
             "it has 2x2147483648 pixels of 3 channels, accepted are 1073741824 values in all");
+  EXPECT_EQ(bmp_complaint({.width = 30000,
+                           .height = 30000,
+                           .bits = 8,
+                           .compression = 1,
+                           .behind_header = "\1\1\1\0"s,
+                           .pixels = "\0\1"s}),
+            "its header says that it has 30000x30000 pixels, which do not fit a file of 60 bytes");
   EXPECT_EQ(bmp_complaint({.width = 20000000, .height = 5}),
             "its header says that it has 20000000x5 pixels, which do not fit a file of 54 bytes");
   EXPECT_EQ(bmp_complaint({.bits = 8, .colors = 1, .behind_header = "\0\0\0\0"s, .pixels = "\0\1\0\0"s}),
@@ -182,6 +192,7 @@ TEST(Bmp, WhatIsNotReadIsRefused) {
   EXPECT_EQ(bmp_complaint(file), "its header has 13 bytes, accepted are 12 and from 40 on");
   const std::string whole = BmpFile{.bits = 1, .colors = 2}.text();
   RasterImage image;
+  EXPECT_EQ(read_bmp(inside, image), "its pixels begin within its header");
   for (std::size_t size = 2; size < whole.size(); ++size) {
     EXPECT_EQ(read_bmp(whole.substr(0, size), image), "its header is cut off") << size;
   }
@@ -286,11 +297,16 @@ TEST(Targa, WhatIsCutOffIsRefused) {
 }
 
 TEST(Targa, OnlyItsOwnHeadersAreTakenForIt) {
-  const std::string padding(30, '\0');
-  for (const std::string& other : {"\x89PNG\r\n\x1a\n"s, "\xff\xd8\xff\xe0"s, "II*\0"s, "MM\0*"s, "v/1\1"s,
-                                   "#?RADIANCE\n"s, "P6\n1 1\n255\n"s, "PF\n1 1\n-1.0\n"s, "BM"s, ""s}) {
-    EXPECT_FALSE(is_targa(other + padding)) << other;
+  for (const TgaFile& file :
+       {TgaFile{}, TgaFile{.type = 1, .bits = 8, .palette_bits = 24}, TgaFile{.type = 3, .bits = 8}}) {
+    const std::string valid = file.text() + std::string(30, '\0');
+    ASSERT_TRUE(is_targa(valid));
+    for (const std::string& other : {"\x89PNG\r\n\x1a\n"s, "\xff\xd8\xff\xe0"s, "II*\0"s, "MM\0*"s, "v/1\1"s,
+                                     "#?RADIANCE\n"s, "P6\n1 1\n255\n"s, "PF\n1 1\n-1.0\n"s, "BM"s}) {
+      EXPECT_FALSE(is_targa(other + valid.substr(other.size()))) << other;
+    }
   }
+  EXPECT_FALSE(is_targa(""));
   EXPECT_FALSE(is_targa(TgaFile{.bits = 17}.text()));
   EXPECT_FALSE(is_targa(TgaFile{.type = 4}.text()));
   EXPECT_FALSE(is_targa(TgaFile{.type = 0}.text()));

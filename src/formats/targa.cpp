@@ -26,7 +26,7 @@ struct Header {
   int channels() const {
     const int stored = kind() == Kind::palette ? palette_bits : bits;
     if (kind() == Kind::grey) return stored == 16 ? 2 : 1;
-    return stored == 32 ? 4 : 3;
+    return stored == 32 ? 4 : 3;  // what the descriptor says of alpha is often wrong
   }
 };
 

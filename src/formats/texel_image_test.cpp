@@ -1,8 +1,6 @@
 #include "formats/texel_image.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <fstream>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "norrsken/image.h"
+#include "tests/address_space_limit.h"
 #include "tests/temporary_folder.h"
 
 namespace norrsken {
@@ -114,24 +113,31 @@ TEST(TexelImage, HeadersThatPromiseMoreThanTheFileHoldsAreNotBelieved) {
   EXPECT_NE(read_texels("a.ppm", ppm(200, 200, "123456"), image), "");
 }
 
-/// A TIFF of one pixel of four inks.
-std::string tiff_of_inks(std::uint16_t bits) {
-  std::string ifd, file("II*\0\x08\0\0\0", 8);
-  const std::vector<std::pair<int, std::vector<int>>> entries = {
-      {256, {1}}, {257, {1}}, {258, {bits, bits, bits, bits}},
-      {259, {1}}, {262, {5}}, {273, {8 + 2 + 9 * 12 + 4 + 8}},
-      {277, {4}}, {278, {1}}, {279, {4}}};
+/// A TIFF of four inks: one pixel, or a tile of 16 x 16.
+std::string tiff_of_inks(std::uint16_t bits, bool tiled = false) {
+  std::string file("II*\0\x08\0\0\0", 8);
+  const int size = tiled ? 16 : 1, directory_bytes = 2 + 10 * 12 + 4, bits_at = 8 + directory_bytes;
+  const int pixels_at = bits_at + 8, pixel_bytes = size * size * 4;
+  // Of tiles: width, height, offset and bytes of one; of strips rows, offset and bytes.
+  const std::vector<std::pair<int, std::vector<int>>> tiles = {
+      {322, {16}}, {323, {16}}, {324, {pixels_at}}, {325, {pixel_bytes}}};
+  const std::vector<std::pair<int, std::vector<int>>> strips = {
+      {273, {pixels_at}}, {277, {4}}, {278, {1}}, {279, {pixel_bytes}}};
+  std::vector<std::pair<int, std::vector<int>>> entries = {
+      {256, {size}}, {257, {size}}, {258, {bits, bits, bits, bits}}, {259, {1}}, {262, {5}}};
+  if (tiled) entries.push_back({277, {4}});
+  entries.insert(entries.end(), tiled ? tiles.begin() : strips.begin(), tiled ? tiles.end() : strips.end());
   const auto put = [&](int value, int bytes) {
     for (int i = 0; i < bytes; ++i) file += static_cast<char>(value >> (8 * i));
   };
   put(static_cast<int>(entries.size()), 2);
   for (const auto& [tag, values] : entries) {
     put(tag, 2), put(3, 2), put(static_cast<int>(values.size()), 4);
-    put(values.size() > 1 ? 8 + 2 + 9 * 12 + 4 : values[0], 4);
+    put(values.size() > 1 ? bits_at : values[0], 4);
   }
-  put(0, 4);
+  file.resize(static_cast<std::size_t>(bits_at));
   for (int i = 0; i < 4; ++i) put(bits, 2);
-  return file + std::string("\x10\x20\x30\x40", 4);
+  return file + std::string(static_cast<std::size_t>(pixel_bytes), 'x');
 }
 
 TEST(TexelImage, InksAreReadUnlessTheirDecoderWouldWritePastItsBuffer) {
@@ -139,26 +145,10 @@ TEST(TexelImage, InksAreReadUnlessTheirDecoderWouldWritePastItsBuffer) {
   EXPECT_EQ(read_texels("a.tif", tiff_of_inks(8), image), "");
   EXPECT_EQ(image.channels, 3);
   EXPECT_EQ(read_texels("a.tif", tiff_of_inks(4), image),
-            "it holds inks (CMYK) of fewer than 8 bits, accepted are 8 and more");
+            "it holds inks (CMYK) in tiles or of fewer than 8 bits, accepted are strips of 8 bits and more");
+  EXPECT_EQ(read_texels("a.tif", tiff_of_inks(8, true), image),
+            "it holds inks (CMYK) in tiles or of fewer than 8 bits, accepted are strips of 8 bits and more");
 }
-
-/// Lets the process set aside so many bytes more than now, touched or not.
-class AddressSpaceLimit {
- public:
-  explicit AddressSpaceLimit(std::uint64_t bytes_more) {
-    std::uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    getrlimit(RLIMIT_AS, &before_);
-    const rlimit limit{pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes_more, before_.rlim_max};
-    setrlimit(RLIMIT_AS, &limit);
-  }
-  ~AddressSpaceLimit() { setrlimit(RLIMIT_AS, &before_); }
-  AddressSpaceLimit(const AddressSpaceLimit&) = delete;
-  AddressSpaceLimit& operator=(const AddressSpaceLimit&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 TEST(TexelImage, RowsOfMillionsOfPixelsAreReadWithoutGigabytes) {
   TexelImage image;
