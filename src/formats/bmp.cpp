@@ -213,8 +213,7 @@ std::string read_bmp(std::string_view contents, RasterImage& image) {
     return too_many_values(size_text(header.width, height) + " pixels", channels);
   }
   // Runs may leave out as much as they like, which none does.
-  constexpr std::uint64_t kMostPixelsOfAByte = 8 * 1032;
-  if (static_cast<std::uint64_t>(header.width * height) / kMostPixelsOfAByte > contents.size()) {
+  if (!may_hold(static_cast<std::uint64_t>(header.width * height), contents.size())) {
     return does_not_fit(header.width, height, contents.size());
   }
   const std::string_view data = contents.substr(std::min<std::size_t>(header.pixels_at, contents.size()));

@@ -66,8 +66,7 @@ std::uint64_t decoding_bytes(const OIIO::ImageSpec& spec) {
   return stored_pixels(spec) * spec.pixel_bytes(/*native=*/true);
 }
 
-/// Whether a file of so many bytes may hold the image. Deflate makes at most 1032 bytes of one (zlib's manual), runs make
-/// less, and a pixel has a bit or more. Formats that leave out what cannot be seen have no such limit.
+/// Whether a file of so many bytes may hold the image. Formats that leave out what cannot be seen have no limit.
 bool may_hold(const OIIO::ImageInput& input, std::size_t file_bytes) {
   constexpr std::string_view kBounded[] = {"hdr", "pnm"};
   constexpr std::string_view kBoundedExr[] = {"none", "rle", "zip", "zips", "pxr24"};
@@ -75,7 +74,7 @@ bool may_hold(const OIIO::ImageInput& input, std::size_t file_bytes) {
   const std::string format = input.format_name(), compression = spec.get_string_attribute("compression");
   const bool bounded = std::ranges::find(kBounded, format) != std::end(kBounded) ||
                        (format == "openexr" && std::ranges::find(kBoundedExr, compression) != std::end(kBoundedExr));
-  return !bounded || spec.image_pixels() / (std::size_t{8} * 1032) <= file_bytes;
+  return !bounded || norrsken::may_hold(spec.image_pixels(), file_bytes);
 }
 
 /// What stands in the way of reading an opened file of so many bytes, or nothing.

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Loads the module when the first image is read: OpenImageIO brings some 260 libraries, 130 MB and a quarter of a
+/// Loads the module when the first image is read that is not a RasterImage: OpenImageIO brings some 260 libraries, 130 MB and a quarter of a
 /// second with it, which a program that only renders should not pay. It is looked for beside the program or library
 /// that this code is in, in its installation, and where it was built.
 void* load_module(std::string& error) {

@@ -22,6 +22,12 @@ inline std::string too_many_values(const std::string& pixels, int channels) {
          std::to_string(kMostImageValues) + " values in all";
 }
 
+/// Whether a file of so many bytes may hold so many pixels: deflate makes at most 1032 bytes of one (zlib's manual), runs
+/// make less, and a pixel has a bit or more.
+constexpr bool may_hold(std::uint64_t pixels, std::uint64_t file_bytes) {
+  return pixels / (std::uint64_t{8} * 1032) <= file_bytes;
+}
+
 /// Of a file that cannot hold so many pixels.
 inline std::string does_not_fit(std::int64_t width, std::int64_t height, std::uint64_t file_bytes) {
   return "its header says that it has " + size_text(width, height) + " pixels, which do not fit a file of " +

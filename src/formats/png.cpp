@@ -108,9 +108,8 @@ std::string read_png(std::string_view contents, RasterImage& image) {
   if (job.info == nullptr) return "not enough memory";
   read_header(job);
   if (!job.error.empty()) return job.error;
-  // Deflate makes at most 1032 bytes of one (zlib's manual), and a pixel has a bit or more.
   const std::uint64_t pixels = std::uint64_t{job.width} * job.height;
-  if (pixels / (std::uint64_t{8} * 1032) > contents.size()) return does_not_fit(job.width, job.height, contents.size());
+  if (!may_hold(pixels, contents.size())) return does_not_fit(job.width, job.height, contents.size());
   if (pixels > kMostImageValues / job.channels) {
     return too_many_values(size_text(job.width, job.height) + " pixels", job.channels);
   }
