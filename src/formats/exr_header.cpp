@@ -77,28 +77,68 @@ bool fits(std::string_view type, std::string_view value) {
   return true;                             // read by their size: texts, and types that the library does not know
 }
 
+/// What a part decodes at once, from the largest values if an attribute comes twice.
+class Block {
+ public:
+  void look_at(std::string_view name, std::string_view value) {
+    Bytes bytes(value);
+    if (name == "channels") {
+      double sum = 0;
+      for (auto channel = bytes.take_word(); channel && !channel->empty(); channel = bytes.take_word()) {
+        constexpr std::int32_t kHalf = 1;
+        sum += bytes.take<std::int32_t>() == kHalf ? 2 : 4;
+        bytes.take(12);
+      }
+      pixel_bytes_ = std::max(pixel_bytes_, sum);
+    } else if (name == "compression") {
+      // None, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
+      constexpr double kRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+      const auto kind = bytes.take<std::uint8_t>();
+      rows_ = std::max(rows_, kind && *kind < std::size(kRows) ? kRows[*kind] : 1);
+    } else if (name == "dataWindow") {
+      const auto left = bytes.take<std::int32_t>(), top = bytes.take<std::int32_t>(),
+                 right = bytes.take<std::int32_t>();
+      if (left && top && right) width_ = std::max(width_, static_cast<double>(*right) - static_cast<double>(*left) + 1);
+    } else if (name == "tiles") {
+      const auto width = bytes.take<std::uint32_t>(), height = bytes.take<std::uint32_t>();
+      if (width && height) tile_ = std::max(tile_, static_cast<double>(*width) * static_cast<double>(*height));
+    }
+  }
+  double bytes() const { return std::max(width_ * rows_, tile_) * pixel_bytes_; }
+
+ private:
+  double pixel_bytes_ = 0, rows_ = 1, width_ = 0, tile_ = 0;
+};
+
 }  // namespace
 
-bool exr_attributes_fit(std::string_view file) {
+bool exr_header_fits(std::string_view file) {
   constexpr std::int32_t kMultipart = 0x1000;
+  // Deflate makes at most 1032 bytes of one (zlib's manual).
+  const double most_at_once = std::max(double{1 << 26}, 1032 * static_cast<double>(file.size()));
   Bytes bytes(file);
   const auto magic = bytes.take<std::int32_t>(), version = bytes.take<std::int32_t>();
   if (!magic || !version) return false;
   // A header ends with an empty name, the headers of several parts with an empty header.
+  Block block;
   for (bool begins = true; !bytes.empty();) {
     if (bytes.front() == '\0') {
       if (begins || (*version & kMultipart) == 0) return true;
       begins = true;
+      block = {};
       bytes.take(1);
       continue;
     }
     begins = false;
-    if (!bytes.take_word()) return false;
+    const auto name = bytes.take_word();
+    if (!name) return false;
     const auto type = bytes.take_word();
     const auto size = bytes.take<std::int32_t>();
     if (!type || !size || *size < 0) return false;
     const auto value = bytes.take(static_cast<std::size_t>(*size));
     if (!value || !fits(*type, *value)) return false;
+    block.look_at(*name, *value);
+    if (block.bytes() > most_at_once) return false;
   }
   return false;
 }

@@ -8,7 +8,9 @@ namespace norrsken {
 /// Whether each attribute of the headers is as long as it says and as its type is, so that it ends where the next one
 /// begins. The library believes the sizes of some types and allocates them, up to 2 GiB each, before it reads; of others it
 /// reads what their type takes, whatever the size says, and then takes what follows for sizes. Never of files with an
-/// idmanifest, after which the library loses its place by itself.
-bool exr_attributes_fit(std::string_view file);
+/// idmanifest, after which the library loses its place by itself. Nor if what is decoded at once, for which the library
+/// allocates when it opens the file (a tile, or up to 256 rows, there or not), is more than 64 MiB and more than deflate
+/// could make of the file.
+bool exr_header_fits(std::string_view file);
 
 }  // namespace norrsken

@@ -166,7 +166,7 @@ class MemoryReader final : public OIIO::Filesystem::IOMemReader {
 
 /// A file in memory, opened by OpenImageIO.
 struct OpenImage {
-  explicit OpenImage(const std::string& contents) : may_be_exr(exr_attributes_fit(contents)), bytes(contents) {}
+  explicit OpenImage(const std::string& contents) : may_be_exr(exr_header_fits(contents)), bytes(contents) {}
 
   bool may_be_exr;
   MemoryReader bytes;
