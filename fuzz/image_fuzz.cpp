@@ -2,8 +2,8 @@
 // linked, not loaded, so that its coverage is seen; the libraries behind it are not instrumented.
 #include <OpenImageIO/imageio.h>
 
-#include "formats/raster_image.h"
 #include "formats/image_oiio.h"
+#include "formats/raster_image.h"
 #include "fuzz/fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
