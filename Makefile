@@ -8,7 +8,7 @@ JOBS ?= $(shell nproc)
 SCENE ?= hexagon_room
 IMAGE ?= out/$(notdir $(basename $(SCENE))).png
 # The room as it is meant to be looked at: its default of as many shadow rays as samples, the report's, takes a minute.
-ROOM_ARGS := --spp 256 -Dshadow_rays=1
+ROOM_ARGS := --spp 256 -Dshadow_rays=1 --exposure 1.5
 ARGS ?= $(if $(filter hexagon_room,$(SCENE)),$(ROOM_ARGS))
 RELEASE := build/release
 
