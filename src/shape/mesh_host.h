@@ -37,7 +37,7 @@ std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, 
                                                std::optional<bool> flip_tex_coords);
 
 /// Takes positions and normals to the world, winds triangles as their normals say, and drops triangles without an area
-/// (a warning with their number). False after an error: nothing with an area, or a vertex too far away.
+/// (a warning with their number), possibly all. False after an error: a vertex too far away.
 bool place_mesh(MeshData& mesh, const glm::dmat4& to_world, Parameters& p);
 
 /// Turns the front of every triangle to the other side; normals are left alone.
