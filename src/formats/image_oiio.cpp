@@ -198,10 +198,37 @@ void open(const std::string& path, OpenImage& image) {
   OIIO::geterror();  // which of them said what is of no use
 }
 
+/// Why a file could not be opened, by its first bytes.
+std::string not_opened(std::string_view contents) {
+  struct Magic {
+    std::size_t offset;
+    std::string_view bytes;
+    const char* what;
+  };
+  using namespace std::string_view_literals;
+  constexpr Magic kMagics[] = {{0, "\x76\x2f\x31\x01", "it is a damaged EXR file, or of a kind that is not read"},
+                               {0, "\xff\xd8\xff", "it is a damaged JPEG file"},
+                               {0, "II*\0"sv, "it is a damaged TIFF file"},
+                               {0, "MM\0*"sv, "it is a damaged TIFF file"},
+                               {0, "GIF8", "it is a GIF file, which is not read"},
+                               {8, "WEBP", "it is a WebP file, which is not read"},
+                               {0, "8BPS", "it is a Photoshop file, which is not read"},
+                               {0, "DDS ", "it is a DDS file, which is not read"},
+                               {1, "KTX ", "it is a KTX file, which is not read"},
+                               {4, "jP  ", "it is a JPEG 2000 file, which is not read"},
+                               {4, "ftyp", "it is a HEIF or AVIF file, which is not read"},
+                               {0, "version https://git-lfs", "it is a pointer of Git LFS in place of the image"},
+                               {0, "<", "it is a text of tags, such as SVG or HTML"}};
+  for (const Magic& magic : kMagics) {
+    if (contents.size() > magic.offset && contents.substr(magic.offset).starts_with(magic.bytes)) return magic.what;
+  }
+  return contents.empty() ? "it is empty" : "unknown or damaged image file";
+}
+
 std::string read(const std::string& path, const std::string& contents, std::uint64_t most_bytes, Image& image) {
   OpenImage file(contents);
   open(path, file);
-  if (!file.input) return said({});
+  if (!file.input) return not_opened(contents);
   OIIO::ImageInput& input = *file.input;
   const OIIO::ImageSpec& spec = input.spec();
   if (std::string objection = objection_to(input, contents.size()); !objection.empty()) return objection;
@@ -300,7 +327,7 @@ std::string read_channels(OIIO::ImageInput& input, const std::vector<int>& wante
 std::string read_image_texels(const std::string& path, const std::string& contents, TexelImage& image) {
   OpenImage file(contents);
   open(path, file);
-  if (!file.input) return said({});
+  if (!file.input) return not_opened(contents);
   OIIO::ImageInput& input = *file.input;
   const OIIO::ImageSpec& spec = input.spec();
   if (std::string objection = objection_to(input, contents.size()); !objection.empty()) return objection;

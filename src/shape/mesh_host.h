@@ -7,6 +7,9 @@
 //   flip_normals     boolean (default false): turn the surface inside out
 //   flip_tex_coords  boolean: v becomes 1 - v (default true for obj, false for ply; serialized has no such parameter)
 //
+// Polygons are cut into triangles as they look from the front of their best plane, concave ones too (Mitsuba draws fans).
+// Left out, with a warning: triangles without an area, faces of fewer than three corners, vertices that are not finite.
+//
 // Normals, as Mitsuba documents them: the file's own; without any, the mean of the faces around each vertex weighed
 // with the angle of their corner, so only vertices that faces do not share stay sharp. A mesh without normals of its
 // own is turned inside out by a mirroring `to_world`, like in Mitsuba, because its winding is what says where its front

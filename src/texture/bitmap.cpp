@@ -10,7 +10,10 @@
 //   to_uv        transform (default identity): of texture coordinates, in x and y
 //   format       auto (default), variant or fp16, and accel (boolean): how Mitsuba stores and looks up texels; accepted
 //                and without effect
-// Values of an image that are out of the range of what they stand for are clamped, with a warning.
+// Values of an image that are out of the range of what they stand for are clamped, with a warning. So are infinite ones, at
+// 65504 (the largest of half precision), and what is no number is 0. EXR: the channels R G B, X Y Z (CIE, turned into sRGB)
+// or Y, of any layer; a warning says which others are taken for them. HDR: RGBE and XYZE, rows and columns in any order;
+// EXPOSURE and GAMMA are not heeded, as in Mitsuba.
 // Stored: to_uv (6 floats), width, height, then words: first texel, stride, byte table, wrap mode, 1 if nearest.
 #include "compile/plugins.h"
 
