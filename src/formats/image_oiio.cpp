@@ -280,7 +280,11 @@ ColorChannels color_channels(const OIIO::ImageSpec& spec) {
   };
   if (auto rgb = named("R", "G", "B"); !rgb.empty()) return {rgb, false, {}};
   if (auto xyz = named("X", "Y", "Z"); !xyz.empty()) return {xyz, true, {}};
-  if (const int grey = spec.channelindex("Y"); grey >= 0) return {{grey}, false, {}};
+  if (const int grey = spec.channelindex("Y"); grey >= 0) {
+    const bool has_chroma = spec.channelindex("RY") >= 0 || spec.channelindex("BY") >= 0;
+    return {
+        {grey}, false, has_chroma ? "has colours in channels RY and BY, which are not read: Y is taken for grey" : ""};
+  }
   ColorChannels first{spec.nchannels >= 3 ? std::vector<int>{0, 1, 2} : std::vector<int>{0}, false, {}};
   constexpr const char* kColors[] = {"R", "G", "B"};
   constexpr const char* kGreys[] = {"R", "Y", "V", "L", "A", "grey", "gray", "luminance"};

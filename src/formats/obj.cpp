@@ -69,7 +69,8 @@ class ObjReader {
   // --- text ---
 
   void skip_byte_order_mark() {
-    if (std::string_view(at_, static_cast<std::size_t>(end_ - at_)).starts_with("\xEF\xBB\xBF")) at_ += 3;
+    if (std::string_view(at_, static_cast<std::size_t>(end_ - at_)).starts_with(kByteOrderMark))
+      at_ += kByteOrderMark.size();
   }
 
   // Lines end with LF, CRLF, or CR alone.

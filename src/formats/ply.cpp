@@ -361,6 +361,7 @@ std::optional<MeshData> read_body(const PlyHeader& header, std::string_view byte
 
 std::optional<MeshData> read_ply(std::string_view bytes, const std::string& path, Diagnostics& diagnostics) {
   MeshComplaints complaints(path, bytes, diagnostics);
+  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
   try {
     const auto header = read_ply_header(bytes, complaints);
     return header ? read_body(*header, bytes, complaints) : std::nullopt;

@@ -202,6 +202,10 @@ TEST(Ply, WhatIsNotFiniteIsLeftOut) {
   EXPECT_EQ(read_with_warnings(bytes).first.triangles, (Triangles{{0, 0, 0}}));
 }
 
+TEST(Ply, ByteOrderMarksAreSkipped) {
+  EXPECT_EQ(read("\xEF\xBB\xBF" + header("ascii") + kCorners + "3 0 1 2\n").triangles, (Triangles{{0, 1, 2}}));
+}
+
 TEST(Ply, FacesOfTwoCornersAreLeftOut) {
   const auto [mesh, warning] = read_with_warnings(header("ascii", "3", "2") + kCorners + "2 0 1\n3 0 1 2\n");
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));

@@ -122,6 +122,8 @@ TEST(TexelImage, GuessesAtChannelsAreTold) {
   EXPECT_EQ(exr_of({{"depth", 4}}).remark, "has no channels R, G, B or Y: depth is taken for grey");
   EXPECT_EQ(exr_of({{"N.X", 1}, {"N.Y", 2}, {"N.Z", 3}}).remark,
             "has no channels R, G, B or Y: N.X, N.Y, N.Z are taken for red, green, blue");
+  EXPECT_EQ(exr_of({{"Y", 1}, {"RY", 0}, {"BY", 0}}).remark,
+            "has colours in channels RY and BY, which are not read: Y is taken for grey");
   EXPECT_EQ(exr_of({{"R", 1}}).remark, "");
   EXPECT_EQ(exr_of({{"Y", 1}}).remark, "");
   EXPECT_EQ(exr_of({{"r", 1}, {"g", 2}, {"b", 3}}).remark, "");
