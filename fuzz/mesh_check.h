@@ -18,7 +18,7 @@ inline bool all_finite(const auto& values) {
 
 inline void check_mesh(const MeshData& mesh) {
   const std::size_t vertices = mesh.positions.size();
-  require(!mesh.triangles.empty(), "a mesh has triangles");
+  require(!mesh.triangles.empty() || vertices == 0, "a mesh has triangles or nothing at all");
   require(std::ranges::all_of(mesh.triangles, [&](const auto& t) { return std::ranges::max(t) < vertices; }),
           "triangles name vertices that there are");
   require(mesh.normals.empty() || mesh.normals.size() == vertices, "a normal for every vertex or none");

@@ -93,11 +93,7 @@ TextureWord Builder::add_texture(TextureKind kind, const ParameterBlock& paramet
 std::optional<Texture> Builder::texture_of(Parameters& p, std::string_view name, double min, double max) {
   const Node::Child* child = p.texture(name);
   if (!child) return std::nullopt;
-  const Texture found = texture(*child->node);
-  if (found.min < min || found.max > max)
-    p.error(name, fmt::format("'{}' has values from {:g} to {:g}", name, found.min, found.max),
-            fmt::format("a texture with values from {:g} to {:g}", min, max));
-  return found;
+  return within_range(p, name, texture(*child->node), min, max);
 }
 
 ColorParameter Builder::color(Parameters& p, std::string_view name, glm::dvec3 fallback, double min, double max,

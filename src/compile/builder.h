@@ -2,12 +2,14 @@
 #pragma once
 
 #include <bit>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/memory.h"
@@ -43,6 +45,8 @@ struct Texture {
   double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
   std::uint32_t width = 1, height = 1;  ///< in texels, for what has any
   TextureWord number = 0;               ///< in place of `word` where it stands for a number, if that is another one
+  /// The same with all values brought into a range; empty where they were written by hand.
+  std::function<Texture(double min, double max, const SourceLocation&)> clamped = {};
 };
 
 /// A model's parameters in the order in which its kernel's ParameterReader counts them.
@@ -98,13 +102,16 @@ class Builder {
   /// The material of a `bsdf` node; a node that several shapes refer to is compiled once.
   Material bsdf(const Node& node);
   /// A colour, or a texture where a child node of that name stands; textures that tell their values are held against
-  /// the range too.
+  /// the range too, those of files by `within_range`.
   ColorParameter color(Parameters& p, std::string_view name, glm::dvec3 fallback, double min, double max,
                        bool emission = false);
   ScalarParameter scalar(Parameters& p, std::string_view name, double fallback, double min, double max,
                          Ends ends = Ends::closed);
   /// The texture of a `texture` node; one that several parameters refer to is compiled once.
   Texture texture(const Node& node);
+  /// The texture of parameter `name` if its values are in range; else a warning, and one whose values are clamped. What was
+  /// written by hand is an error there.
+  Texture within_range(Parameters& p, std::string_view name, const Texture& texture, double min, double max);
   /// Stores a texture's parameters and returns the word that leads to them.
   TextureWord add_texture(TextureKind kind, const ParameterBlock& parameters);
   ImageStore& images() { return images_; }
@@ -142,7 +149,7 @@ class Builder {
   Parameters parameters(const Node& node) { return {node, description_, files_, diagnostics_}; }
   /// Complains about media, textures and volumes by name; for nodes whose children's names mean nothing yet.
   void refuse_kinds_to_come(Parameters& parameters);
-  /// The texture of that name, if it has one, with a complaint if its values are out of range.
+  /// The texture of that name, if it has one, within its range.
   std::optional<Texture> texture_of(Parameters& p, std::string_view name, double min, double max);
   void compile_sensor(Parameters& scene, const LoadOptions& options);
   void override_samples_per_pixel(const LoadOptions& options);
@@ -153,6 +160,10 @@ class Builder {
   void compile_shape(const Node& node);
   void compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compile)(Parameters&, Builder&));
   Material material_of(Parameters& shape);
+  /// A warning if the textures of a shape without texture coordinates look them up.
+  void want_texcoords(const Node& shape);
+  /// A texture below a node that looks up texture coordinates, or null.
+  const Node* texture_by_uv(const Node& node);
   void compile_emitter(const Node& node, std::uint32_t shape);
   void choose_lights();
   void summarise();
@@ -173,6 +184,8 @@ class Builder {
   MeshAttributes attributes_{scene_.tables};
   std::map<const Node*, Material> materials_;
   std::map<const Node*, Texture> textures_;
+  std::map<std::tuple<TextureWord, double, double>, Texture> clamped_textures_;
+  std::map<const Node*, const Node*> textures_by_uv_;
   std::optional<Material> default_material_;
   int bsdf_depth_ = 0;
   int integrator_depth_ = 0;

@@ -43,6 +43,7 @@ void Builder::compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compil
     const Material material = material_of(p);
     const Node::Child* emitter = p.child("emitter");
     attributes_.check(node, geometry.mesh.attributes, diagnostics_);
+    if (geometry.mesh.texcoords.empty() && !geometry.mesh.triangles.empty()) want_texcoords(node);
     const std::vector<MeshAttribute> attributes = std::move(geometry.mesh.attributes);
     const auto first_vertex = static_cast<std::uint32_t>(tables().positions.size() / 3);
     const std::uint32_t first_triangle = tables().triangle_count();

@@ -19,6 +19,9 @@ namespace {
 /// Signed 32-bit lanes count texels' floats.
 constexpr std::size_t kMaxTexels = std::size_t{1} << 31;
 
+/// What is infinite: the largest number of half precision, in which environments with such suns are stored.
+constexpr float kInstead = 65504;
+
 /// Sums of the values that are added to it, channel by channel.
 struct Statistics {
   glm::dvec3 sum{0};
@@ -58,6 +61,9 @@ std::optional<StoredImage> ImageStore::read(const std::string& path, bool raw, c
     diagnostics_.error(named_at, fmt::format("cannot read the image {}: {}", quoted(path, 200), reason), accepted);
     return std::nullopt;
   };
+  const auto warn = [&](const std::string& message) {
+    diagnostics_.warning(named_at, fmt::format("the image {} {}", quoted(path, 200), message));
+  };
   std::string error;
   auto contents = read_counted(files_, path, error);
   if (!contents) return refuse(error, "an image file");
@@ -71,10 +77,11 @@ std::optional<StoredImage> ImageStore::read(const std::string& path, bool raw, c
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   const bool packed = !image.bytes.empty();
   const std::size_t needed = packed ? pixels + 512 : pixels * channels;
-  if (needed >= kMaxTexels - std::min(texels.size(), kMaxTexels))
-    return refuse("the scene's images are too many or too large", fmt::format("{} texels in all", kMaxTexels));
+  if (!image.remark.empty()) warn(image.remark);
+  if (!has_room(needed, path, named_at)) return std::nullopt;
 
   StoredImage stored;
+  stored.path = path;
   stored.width = static_cast<std::uint32_t>(image.width);
   stored.height = static_cast<std::uint32_t>(image.height);
   const bool decode = image.is_encoded && !raw;
@@ -103,11 +110,19 @@ std::optional<StoredImage> ImageStore::read(const std::string& path, bool raw, c
     stored.stride = static_cast<std::uint32_t>(channels);
     stored.texels = static_cast<std::uint32_t>(texels.size());
     texels.reserve(texels.size() + image.values.size());
+    std::size_t not_finite = 0;
     for (std::size_t i = 0; i < image.values.size(); ++i) {
-      const float value = decode ? linear_from_srgb(image.values[i]) : image.values[i];
-      if (!std::isfinite(value)) return refuse("it has values that are not finite", "finite values");
+      float value = decode ? linear_from_srgb(image.values[i]) : image.values[i];
+      if (!std::isfinite(value)) {
+        ++not_finite;
+        value = std::isnan(value) ? 0 : std::copysign(kInstead, value);
+      }
       texels.push_back(value);
       statistics.add(static_cast<int>(i % channels), double{value}, 1);
+    }
+    if (not_finite > 0) {
+      warn(fmt::format("has {} value{} not finite: infinite ones are taken for {:g}, others for 0", not_finite,
+                       not_finite == 1 ? " that is" : "s that are", kInstead));
     }
   }
   stored.mean = statistics.sum / static_cast<double>(pixels);
@@ -115,6 +130,39 @@ std::optional<StoredImage> ImageStore::read(const std::string& path, bool raw, c
   stored.min = statistics.min;
   stored.max = statistics.max;
   return stored;
+}
+
+bool ImageStore::has_room(std::size_t texels, const std::string& path, const SourceLocation& named_at) {
+  if (texels < kMaxTexels - std::min(tables_.texels.size(), kMaxTexels)) return true;
+  diagnostics_.error(
+      named_at,
+      fmt::format("cannot read the image {}: the scene's images are too many or too large", quoted(path, 200)),
+      fmt::format("{} texels in all", kMaxTexels));
+  return false;
+}
+
+std::optional<StoredImage> ImageStore::clamped(const StoredImage& image, double min, double max,
+                                               const SourceLocation& named_at) {
+  std::optional<StoredImage> result;
+  within_memory(named_at, "a copy of an image", diagnostics_, [&] {
+    const std::size_t channels = image.stride, count = channels * image.width * image.height;
+    if (!has_room(count, image.path, named_at)) return;
+    auto& texels = tables_.texels;
+    StoredImage copy = image;
+    copy.texels = static_cast<std::uint32_t>(texels.size());
+    texels.reserve(texels.size() + count);
+    Statistics statistics;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto value = static_cast<float>(std::clamp(double{texels[image.texels + i]}, min, max));
+      texels.push_back(value);
+      statistics.add(static_cast<int>(i % channels), double{value}, 1);
+    }
+    copy.mean = statistics.sum / static_cast<double>(count / channels);
+    if (channels == 1) copy.mean = glm::dvec3(copy.mean.x);
+    copy.min = statistics.min, copy.max = statistics.max;
+    result = copy;
+  });
+  return result;
 }
 
 }  // namespace norrsken

@@ -24,6 +24,7 @@ struct StoredImage {
   std::uint32_t table = 0;  ///< offset of that table
   glm::dvec3 mean{0};
   double min = 0, max = 0;
+  std::string path;  ///< of the file
 };
 
 class ImageStore {
@@ -33,9 +34,13 @@ class ImageStore {
 
   /// The image in a file, in linear sRGB; `raw`: with the numbers that are stored. Empty after a complaint.
   std::optional<StoredImage> load(const std::string& path, bool raw, const SourceLocation& named_at);
+  /// A copy of an image of floats with its values brought into a range. Empty after a complaint.
+  std::optional<StoredImage> clamped(const StoredImage& image, double min, double max, const SourceLocation& named_at);
 
  private:
   std::optional<StoredImage> read(const std::string& path, bool raw, const SourceLocation& named_at);
+  /// Whether the scene may have so many more; complains if not.
+  bool has_room(std::size_t texels, const std::string& path, const SourceLocation& named_at);
   /// What the 256 bytes mean: values stored with sRGB's transfer function, or fractions.
   std::uint32_t byte_table(bool encoded);
 

@@ -43,9 +43,12 @@ class CurveReader {
         diagnostics_(diagnostics) {}
 
   std::optional<CurveData> read() {
+    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
     while (!rest_.empty() && !complaints_.gave_up()) {
-      const std::string_view line = rest_.substr(0, rest_.find('\n'));
-      rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
+      // Lines end with LF, CRLF, or CR alone.
+      const std::string_view line = rest_.substr(0, rest_.find_first_of("\r\n"));
+      rest_.remove_prefix(line.size());
+      rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, rest_.size()));
       control_point(line);
       if (curves_.points.size() > kMaxPoints) {
         complaints_.about_file("the file has too many control points", fmt::format("up to {}", kMaxPoints));

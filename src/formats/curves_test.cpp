@@ -37,6 +37,14 @@ TEST(Curves, EmptyLinesStandBetweenThem) {
   EXPECT_EQ(curves.curves, 2u);
 }
 
+TEST(Curves, CarriageReturnsAloneEndLinesAndAByteOrderMarkIsSkipped) {
+  const CurveData curves = read(
+      "\xEF\xBB\xBF"
+      "0 0 0 1\r0 0 1 1\r\r1 0 0 1\r1 0 1 1\r");
+  EXPECT_EQ(curves.points.size(), 4u);
+  EXPECT_EQ(curves.segments, (Segments{0, 2}));
+}
+
 TEST(Curves, SegmentsOfBsplinesDependOnFourPoints) {
   const std::string line = "0 0 0 1\n";
   const CurveData curves =

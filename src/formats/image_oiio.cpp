@@ -68,7 +68,7 @@ std::uint64_t decoding_bytes(const OIIO::ImageSpec& spec) {
 
 /// Whether a file of so many bytes may hold the image. Formats that leave out what cannot be seen have no limit.
 bool may_hold(const OIIO::ImageInput& input, std::size_t file_bytes) {
-  constexpr std::string_view kBounded[] = {"hdr", "pnm"};
+  constexpr std::string_view kBounded[] = {"pnm"};
   constexpr std::string_view kBoundedExr[] = {"none", "rle", "zip", "zips", "pxr24"};
   const OIIO::ImageSpec& spec = input.spec();
   const std::string format = input.format_name(), compression = spec.get_string_attribute("compression");
@@ -132,15 +132,14 @@ std::string for_each_block(OIIO::ImageInput& input, const OIIO::TypeDesc& type, 
 }
 
 /// Formats that are read, by OpenImageIO's names, and their extensions. It knows more, but each is one more parser for a
-/// damaged file to break, and those that need a file of their own on disk could not be read from memory. BMP, PNG
-/// and TGA are read without it (formats/raster_image.h says why).
+/// damaged file to break, and those that need a file of their own on disk could not be read from memory. BMP, PNG,
+/// TGA and Radiance pictures are read without it (formats/raster_image.h says why).
 struct Format {
   const char* name;
   std::initializer_list<const char*> extensions;
 };
 const Format kFormats[] = {{"openexr", {"exr"}},
                            {"jpeg", {"jpg", "jpeg"}},
-                           {"hdr", {"hdr", "rgbe"}},
                            {"tiff", {"tif", "tiff"}},
                            {"pnm", {"pfm", "ppm", "pgm", "pbm", "pnm"}}};
 
@@ -199,10 +198,37 @@ void open(const std::string& path, OpenImage& image) {
   OIIO::geterror();  // which of them said what is of no use
 }
 
+/// Why a file could not be opened, by its first bytes.
+std::string not_opened(std::string_view contents) {
+  struct Magic {
+    std::size_t offset;
+    std::string_view bytes;
+    const char* what;
+  };
+  using namespace std::string_view_literals;
+  constexpr Magic kMagics[] = {{0, "\x76\x2f\x31\x01", "it is a damaged EXR file, or of a kind that is not read"},
+                               {0, "\xff\xd8\xff", "it is a damaged JPEG file"},
+                               {0, "II*\0"sv, "it is a damaged TIFF file"},
+                               {0, "MM\0*"sv, "it is a damaged TIFF file"},
+                               {0, "GIF8", "it is a GIF file, which is not read"},
+                               {8, "WEBP", "it is a WebP file, which is not read"},
+                               {0, "8BPS", "it is a Photoshop file, which is not read"},
+                               {0, "DDS ", "it is a DDS file, which is not read"},
+                               {1, "KTX ", "it is a KTX file, which is not read"},
+                               {4, "jP  ", "it is a JPEG 2000 file, which is not read"},
+                               {4, "ftyp", "it is a HEIF or AVIF file, which is not read"},
+                               {0, "version https://git-lfs", "it is a pointer of Git LFS in place of the image"},
+                               {0, "<", "it is a text of tags, such as SVG or HTML"}};
+  for (const Magic& magic : kMagics) {
+    if (contents.size() > magic.offset && contents.substr(magic.offset).starts_with(magic.bytes)) return magic.what;
+  }
+  return contents.empty() ? "it is empty" : "unknown or damaged image file";
+}
+
 std::string read(const std::string& path, const std::string& contents, std::uint64_t most_bytes, Image& image) {
   OpenImage file(contents);
   open(path, file);
-  if (!file.input) return said({});
+  if (!file.input) return not_opened(contents);
   OIIO::ImageInput& input = *file.input;
   const OIIO::ImageSpec& spec = input.spec();
   if (std::string objection = objection_to(input, contents.size()); !objection.empty()) return objection;
@@ -235,12 +261,48 @@ std::string read(const std::string& path, const std::string& contents, std::uint
   });
 }
 
-/// The channels that make a colour or grey: R, G, B by name, or Y, or the first three or the first one.
-std::vector<int> color_channels(const OIIO::ImageSpec& spec) {
-  const int rgb[3] = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
-  if (std::ranges::all_of(rgb, [](int c) { return c >= 0; })) return {rgb[0], rgb[1], rgb[2]};
-  if (const int grey = spec.channelindex("Y"); grey >= 0) return {grey};
-  return spec.nchannels >= 3 ? std::vector<int>{0, 1, 2} : std::vector<int>{0};
+/// The channels that make a colour or grey.
+struct ColorChannels {
+  std::vector<int> numbers;
+  bool is_xyz = false;  ///< CIE XYZ in place of red, green, blue
+  std::string remark;   ///< if that is a guess
+};
+
+/// What stands behind a layer's name: "R" of "ViewLayer.Combined.R".
+std::string_view last_name(std::string_view channel) { return channel.substr(channel.rfind('.') + 1); }
+
+/// R, G, B by name, or X, Y, Z, or Y, or the first three or the first one.
+ColorChannels color_channels(const OIIO::ImageSpec& spec) {
+  const auto named = [&](const char* a, const char* b, const char* c) -> std::vector<int> {
+    const int found[3] = {spec.channelindex(a), spec.channelindex(b), spec.channelindex(c)};
+    if (std::ranges::any_of(found, [](int k) { return k < 0; })) return {};
+    return {found[0], found[1], found[2]};
+  };
+  if (auto rgb = named("R", "G", "B"); !rgb.empty()) return {rgb, false, {}};
+  if (auto xyz = named("X", "Y", "Z"); !xyz.empty()) return {xyz, true, {}};
+  if (const int grey = spec.channelindex("Y"); grey >= 0) {
+    const bool has_chroma = spec.channelindex("RY") >= 0 || spec.channelindex("BY") >= 0;
+    return {
+        {grey}, false, has_chroma ? "has colours in channels RY and BY, which are not read: Y is taken for grey" : ""};
+  }
+  ColorChannels first{spec.nchannels >= 3 ? std::vector<int>{0, 1, 2} : std::vector<int>{0}, false, {}};
+  constexpr const char* kColors[] = {"R", "G", "B"};
+  constexpr const char* kGreys[] = {"R", "Y", "V", "L", "A", "grey", "gray", "luminance"};
+  bool is_guess = false;
+  std::string names;
+  for (const int k : first.numbers) {
+    const std::string& name = spec.channelnames[static_cast<std::size_t>(k)];
+    const std::string short_name(last_name(name));
+    const auto is = [&](const char* known) { return OIIO::Strutil::iequals(short_name, known); };
+    is_guess |= first.numbers.size() == 3 ? !is(kColors[k]) : !std::ranges::any_of(kGreys, is);
+    names += (names.empty() ? "" : ", ") + name.substr(0, 100);
+  }
+  if (is_guess) {
+    first.remark = first.numbers.size() == 3
+                       ? "has no channels R, G, B or Y: " + names + " are taken for red, green, blue"
+                       : "has no channels R, G, B or Y: " + names + " is taken for grey";
+  }
+  return first;
 }
 
 template <class T>
@@ -269,18 +331,26 @@ std::string read_channels(OIIO::ImageInput& input, const std::vector<int>& wante
 std::string read_image_texels(const std::string& path, const std::string& contents, TexelImage& image) {
   OpenImage file(contents);
   open(path, file);
-  if (!file.input) return said({});
+  if (!file.input) return not_opened(contents);
   OIIO::ImageInput& input = *file.input;
   const OIIO::ImageSpec& spec = input.spec();
   if (std::string objection = objection_to(input, contents.size()); !objection.empty()) return objection;
-  const std::vector<int> wanted = color_channels(spec);
+  const auto [wanted, is_xyz, remark] = color_channels(spec);
   const bool small = is_integer_of(spec.format, 1);
   image.width = spec.width;
   image.height = spec.height;
   image.channels = static_cast<int>(wanted.size());
   image.is_encoded = !spec.format.is_floating_point() && spec.format.size() <= 2 &&
                      !OIIO::Strutil::iequals(spec.get_string_attribute("oiio:ColorSpace"), "linear");
-  return small ? read_channels(input, wanted, image.bytes) : read_channels(input, wanted, image.values);
+  image.remark = remark;
+  if (small) return read_channels(input, wanted, image.bytes);
+  std::string error = read_channels(input, wanted, image.values);
+  for (std::size_t i = 0; is_xyz && i + 2 < image.values.size(); i += 3) {
+    float* v = &image.values[i];
+    const ColorVector rgb = kSrgbFromXyz * ColorVector{v[0], v[1], v[2]};
+    for (std::size_t c = 0; c < 3; ++c) v[c] = static_cast<float>(rgb[c]);
+  }
+  return error;
 }
 
 /// Runs `read`, which returns what is wrong, and lets no exception out.

@@ -1,4 +1,6 @@
-// Readers of mesh files. All take the file's bytes and complain with the file's line where it has lines.
+// Readers of mesh files. All take the file's bytes and complain with the file's line where it has lines. Polygons are cut
+// into triangles by formats/polygon.h. What is left out with a warning (formats/mesh_flaws.h): numbers that are not finite,
+// faces of fewer than three corners; a mesh without faces is empty.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +13,14 @@
 
 namespace norrsken {
 
-/// Wavefront OBJ: v, vt, vn, f with any polygon (fan-triangulated) and negative indices; other statements are skipped.
+/// Wavefront OBJ: v, vt, vn, f with any polygon and negative indices; other statements are skipped. A byte order mark may
+/// come first, lines end with LF, CRLF or CR. A file without faces is an error, as any text would be an empty mesh.
 /// Where only some corners have normals or texture coordinates, the others get their triangle's normal and (0, 0).
 std::optional<MeshData> read_obj(std::string_view bytes, const std::string& path, Diagnostics& diagnostics);
 
-/// Stanford PLY: ascii, binary little and big endian; vertex x y z [nx ny nz] [u v | texture_u texture_v | s t], polygon
-/// faces (fan-triangulated), attributes of vertices and faces by the rules of formats/ply_attributes.h.
+/// Stanford PLY: ascii, binary little and big endian; vertex x y z [nx ny nz] [texture coordinates by the names of
+/// formats/ply_attributes.h], polygon faces, whose corners may have texture coordinates of their own (a list `texcoord`),
+/// attributes of vertices and faces by the rules of formats/ply_attributes.h.
 std::optional<MeshData> read_ply(std::string_view bytes, const std::string& path, Diagnostics& diagnostics);
 
 /// Mitsuba's serialized meshes, versions 3 and 4: the mesh of that number in the file, from 0 on. Vertex colours become

@@ -2,6 +2,7 @@
 // vertices are made of what the faces put together.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -11,8 +12,11 @@
 
 #include "base/numbers.h"
 #include "base/text.h"
+#include "formats/combinations.h"
 #include "formats/mesh_complaints.h"
+#include "formats/mesh_flaws.h"
 #include "formats/mesh_readers.h"
+#include "formats/polygon.h"
 #include "scene/description.h"
 
 namespace norrsken {
@@ -23,7 +27,6 @@ constexpr std::uint32_t kAbsent = 0xffffffffu;
 // What a face's corner refers to, counted from 0.
 struct Corner {
   std::uint32_t position, texcoord, normal;
-  bool operator==(const Corner&) const = default;
 };
 
 class ObjReader {
@@ -32,16 +35,22 @@ class ObjReader {
       : at_(bytes.data()), end_(bytes.data() + bytes.size()), complaints_(path, bytes, diagnostics) {}
 
   std::optional<MeshData> read() {
+    skip_byte_order_mark();
     while (at_ < end_ && !complaints_.gave_up()) {
       statement();
       skip_line();
     }
     check_forward_references();
+    complaints_.tell_flaws();
     if (corners_.empty() && !complaints_.any())
       complaints_.about_file("the file has no faces", "OBJ text with 'v' and 'f' lines");
     if (complaints_.any()) return std::nullopt;
+    for (const Fan& fan : fans_to_come_) cut(fan);
+    warn_of_intricate(cutter_, complaints_);
     fill_in_absent();
-    return assemble();
+    MeshData mesh = assemble();
+    leave_out_not_finite(mesh);
+    return mesh;
   }
 
  private:
@@ -52,17 +61,28 @@ class ObjReader {
     int kind;
   };
 
+  /// The triangles of a face with more than three corners: where in `corners_`, and its corners.
+  struct Fan {
+    std::size_t first, corners;
+  };
+
   // --- text ---
+
+  void skip_byte_order_mark() {
+    if (std::string_view(at_, static_cast<std::size_t>(end_ - at_)).starts_with(kByteOrderMark))
+      at_ += kByteOrderMark.size();
+  }
+
+  // Lines end with LF, CRLF, or CR alone.
+  static bool is_break(char c) { return c == '\n' || c == '\r'; }
 
   // Blanks, and line breaks behind a backslash.
   void skip_blanks() {
     while (at_ < end_) {
-      if (*at_ == ' ' || *at_ == '\t' || *at_ == '\r') {
+      if (*at_ == ' ' || *at_ == '\t') {
         ++at_;
-      } else if (*at_ == '\\' && at_ + 1 < end_ && at_[1] == '\n') {
-        at_ += 2;
-      } else if (*at_ == '\\' && at_ + 2 < end_ && at_[1] == '\r' && at_[2] == '\n') {
-        at_ += 3;
+      } else if (*at_ == '\\' && at_ + 1 < end_ && is_break(at_[1])) {
+        at_ += at_ + 2 < end_ && at_[1] == '\r' && at_[2] == '\n' ? 3 : 2;
       } else {
         return;
       }
@@ -70,14 +90,14 @@ class ObjReader {
   }
 
   void skip_line() {
-    while (at_ < end_ && *at_ != '\n') ++at_;
+    while (at_ < end_ && !is_break(*at_)) ++at_;
     if (at_ < end_) ++at_;
   }
 
   bool at_token_end(const char* p) const {
-    return p == end_ || *p == ' ' || *p == '\t' || *p == '\r' || *p == '\n' || *p == '\\' || *p == '#';
+    return p == end_ || *p == ' ' || *p == '\t' || is_break(*p) || *p == '\\' || *p == '#';
   }
-  bool at_line_end() const { return at_ == end_ || *at_ == '\n' || *at_ == '#'; }
+  bool at_line_end() const { return at_ == end_ || is_break(*at_) || *at_ == '#'; }
 
   std::string_view token() const {
     const char* stop = at_;
@@ -134,6 +154,11 @@ class ObjReader {
     if (status == NumberStatus::ok && std::abs(value) > limit) status = NumberStatus::overflow;
     at_ += word.size();
     if (status == NumberStatus::ok) return true;
+    if (status == NumberStatus::not_finite) {
+      complaints_.flaw_at(word, MeshFlaw::not_finite, not_finite_text(quoted(word) + " is not finite"));
+      value = std::numeric_limits<float>::quiet_NaN();
+      return true;
+    }
     complaints_.at(word, fmt::format("{} {}", quoted(word), describe(status)),
                    status == NumberStatus::malformed ? "a number such as 1.5 or -2e3"
                                                      : fmt::format("a number from {:g} to {:g}", -limit, limit));
@@ -142,19 +167,44 @@ class ObjReader {
 
   void face(std::string_view keyword) {
     polygon_.clear();
+    const std::size_t forward_before = forward_.size();
     for (skip_blanks(); !at_line_end(); skip_blanks()) {
       Corner corner{};
       if (!read_corner(corner)) return;
       polygon_.push_back(corner);
     }
     if (polygon_.size() < 3) {
-      complaints_.at(keyword, fmt::format("a face of {} vertices", polygon_.size()), "at least 3 vertices");
+      complaints_.flaw_at(keyword, MeshFlaw::small_face, small_face_text(polygon_.size()));
       return;
     }
+    const Fan fan{corners_.size(), polygon_.size()};
     for (std::size_t i = 2; i < polygon_.size(); ++i) {
       corners_.push_back(polygon_[0]);
       corners_.push_back(polygon_[i - 1]);
       corners_.push_back(polygon_[i]);
+    }
+    if (polygon_.size() == 3) return;
+    if (forward_.size() != forward_before) {
+      fans_to_come_.push_back(fan);
+    } else {
+      cut(fan);
+    }
+  }
+
+  // Other triangles in place of a fan, if it does not do.
+  void cut(const Fan& fan) {
+    const auto corner = [&](std::size_t i) -> const Corner& {
+      return corners_[fan.first + (i < 2 ? i : 3 * (i - 2) + 2)];
+    };
+    points_.clear();
+    for (std::size_t i = 0; i < fan.corners; ++i) points_.push_back(positions_[corner(i).position]);
+    const auto triangles = cutter_.cut(points_);
+    if (triangles.empty()) return;
+    polygon_.clear();
+    for (std::size_t i = 0; i < fan.corners; ++i) polygon_.push_back(corner(i));
+    std::size_t at = fan.first;
+    for (const PolygonCutter::Triangle& triangle : triangles) {
+      for (const std::uint32_t i : triangle) corners_[at++] = polygon_[i];
     }
   }
 
@@ -280,37 +330,21 @@ class ObjReader {
       if (has_normals_) mesh.normals = std::move(normals_);
       return mesh;
     }
-    // A vertex for every combination of parts, found again in an open-addressing table at most half full.
-    Array<std::uint32_t> table(std::bit_ceil(corners_.size() * 2), kAbsent);
-    const std::size_t mask = table.size() - 1;
-    Array<Corner> vertices;
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-      const Corner& corner = corners_[i];
-      std::size_t slot = hash(corner) & mask;
-      while (table[slot] != kAbsent && !(vertices[table[slot]] == corner)) slot = (slot + 1) & mask;
-      if (table[slot] == kAbsent) {
-        table[slot] = static_cast<std::uint32_t>(vertices.size());
-        vertices.push_back(corner);
-      }
-      mesh.triangles[i / 3][i % 3] = table[slot];
-    }
+    // A vertex for every combination of parts.
+    Combinations combinations(corners_.size());
+    for (std::size_t i = 0; i < corners_.size(); ++i)
+      mesh.triangles[i / 3][i % 3] = combinations.number_of(std::bit_cast<Combinations::Key>(corners_[i]));
+    const auto& vertices = combinations.keys();
     mesh.positions.reserve(vertices.size());
     if (has_texcoords_) mesh.texcoords.reserve(vertices.size());
     if (has_normals_) mesh.normals.reserve(vertices.size());
-    for (const Corner& vertex : vertices) {
+    for (const Combinations::Key& key : vertices) {
+      const auto vertex = std::bit_cast<Corner>(key);
       mesh.positions.push_back(positions_[vertex.position]);
       if (has_texcoords_) mesh.texcoords.push_back(texcoords_[vertex.texcoord]);
       if (has_normals_) mesh.normals.push_back(normals_[vertex.normal]);
     }
     return mesh;
-  }
-
-  // Finalizer of SplitMix64 (Steele, Lea, Flood 2014) over the three indices.
-  static std::size_t hash(const Corner& corner) {
-    std::uint64_t h = corner.position * 0x9e3779b97f4a7c15u;
-    h = (h ^ corner.texcoord) * 0xbf58476d1ce4e5b9u;
-    h = (h ^ (h >> 27) ^ corner.normal) * 0x94d049bb133111ebu;
-    return static_cast<std::size_t>(h ^ (h >> 31));
   }
 
   const char* at_;
@@ -320,6 +354,9 @@ class ObjReader {
   Array<std::array<float, 2>> texcoords_;
   Array<Corner> corners_;  ///< three for every triangle
   Array<Corner> polygon_;  ///< of the face being read
+  Array<PolygonCutter::Point> points_;
+  PolygonCutter cutter_;
+  Array<Fan> fans_to_come_;  ///< of faces that came before their vertices
   Array<ForwardReference> forward_;
   bool has_texcoords_ = false, has_normals_ = false;
 };

@@ -10,8 +10,10 @@
 
 #include "color/srgb.h"
 #include "formats/mesh_complaints.h"
+#include "formats/mesh_flaws.h"
 #include "formats/mesh_readers.h"
 #include "formats/ply_attributes.h"
+#include "formats/ply_faces.h"
 #include "formats/ply_header.h"
 #include "formats/ply_input.h"
 #include "scene/description.h"
@@ -24,6 +26,9 @@ constexpr double kMaxFloat = std::numeric_limits<float>::max();
 bool is_face_list(const PlyProperty& property) {
   return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
+
+/// Texture coordinates of a face's corners, u and v of one after the other, as MeshLab writes them.
+bool is_corner_texcoords(const PlyProperty& property) { return property.count_type && property.name == "texcoord"; }
 
 /// Where a property's values go.
 struct Column {
@@ -64,11 +69,16 @@ class BodyReader {
   std::optional<MeshData> read() {
     const PlyElement* vertices = find("vertex");
     const PlyElement* faces = find("face");
-    if (!vertices || !faces || !check(*vertices, *faces)) {
-      if (!complaints_.any())
-        complaints_.about_file("the mesh has no vertices or no faces", "elements 'vertex' and 'face'");
+    if (!faces && find("tristrips")) {
+      complaints_.about_file("triangle strips (element 'tristrips') are not read", "faces, in an element 'face'");
       return std::nullopt;
     }
+    if (!vertices) {
+      complaints_.about_file("the mesh has no vertices", "elements 'vertex' and 'face'");
+      return std::nullopt;
+    }
+    if (!faces) return without_faces();
+    if (!check(*vertices, *faces)) return std::nullopt;
     vertex_count_ = vertices->count;
     for (const PlyElement& element : header_.elements) {
       const bool good = &element == vertices ? read_vertices(element)
@@ -77,11 +87,21 @@ class BodyReader {
       if (!good) return std::nullopt;
       if (!mesh_.positions.empty() && !mesh_.triangles.empty()) break;
     }
-    if (mesh_.triangles.empty() && !complaints_.any()) complaints_.about_file("the mesh has no faces", "at least one");
-    return complaints_.any() ? std::nullopt : std::optional(std::move(mesh_));
+    complaints_.tell_flaws();
+    if (complaints_.any()) return std::nullopt;
+    if (mesh_.triangles.empty()) return without_faces();
+    warn_of_intricate(faces_.finish(), complaints_);
+    leave_out_not_finite(mesh_);
+    return std::move(mesh_);
   }
 
  private:
+  std::optional<MeshData> without_faces() {
+    complaints_.flaw_at({}, MeshFlaw::no_faces, "the mesh has no faces, nothing of it is drawn");
+    complaints_.tell_flaws();
+    return MeshData{};
+  }
+
   const PlyElement* find(std::string_view name) const {
     const auto named = [name](const PlyElement& element) { return element.name == name; };
     const auto found = std::find_if(header_.elements.begin(), header_.elements.end(), named);
@@ -151,10 +171,14 @@ class BodyReader {
                   float& result) {
     double value = 0;
     if (!input_.read(property.type, value)) return false;
-    if (!(std::abs(value) <= column.limit)) {
-      complain(fmt::format("'{}' of {} {} is {}", property.name, element.name, row,
-                           input_.last().empty() ? fmt::format("{}", value) : std::string(input_.last())),
-               fmt::format("a number from {:g} to {:g}", -column.limit, column.limit));
+    const auto what = [&] {
+      return fmt::format("'{}' of {} {} is {}", property.name, element.name, row,
+                         input_.last().empty() ? fmt::format("{}", value) : std::string(input_.last()));
+    };
+    if (!std::isfinite(value)) {
+      complaints_.flaw_at(input_.last(), MeshFlaw::not_finite, not_finite_text(what()));
+    } else if (std::abs(value) > column.limit) {
+      complain(what(), fmt::format("a number from {:g} to {:g}", -column.limit, column.limit));
       value = 0;
     }
     if (column.full_scale > 0) value = linear_from_srgb(std::clamp(value / column.full_scale, 0.0, 1.0));
@@ -242,16 +266,18 @@ class BodyReader {
     add_attributes(element, true, 1, columns);
     const std::span attributes = std::span(mesh_.attributes).subspan(first_attribute);
     std::vector<Array<float>> values(attributes.size());
-    std::vector<bool> is_corners;
-    for (const PlyProperty& property : element.properties) is_corners.push_back(is_face_list(property));
+    for (const PlyProperty& property : element.properties) faces_.have_texcoords |= is_corner_texcoords(property);
     for (std::uint64_t row = 0; row < element.count; ++row) {
       const std::size_t triangles_before = mesh_.triangles.size();
       for (std::size_t i = 0; i < columns.size(); ++i) {
         const PlyProperty& property = element.properties[i];
-        const bool good = is_corners[i] ? read_face(property, row) : read_property(element, property, columns[i], row);
+        const bool good = is_face_list(property)          ? read_corners(property, row)
+                          : is_corner_texcoords(property) ? read_corner_texcoords(property, row)
+                                                          : read_property(element, property, columns[i], row);
         if (complaints_.gave_up()) return false;
         if (!good) return ends_early(element, row);
       }
+      add_face(row);
       for (std::size_t a = 0; a < attributes.size(); ++a) {
         for (std::size_t i = triangles_before; i < mesh_.triangles.size(); ++i)
           values[a].insert(values[a].end(), attributes[a].values.begin(), attributes[a].values.end());
@@ -261,12 +287,16 @@ class BodyReader {
     return true;
   }
 
-  // A fan around the first corner. False at the end of the file.
-  bool read_face(const PlyProperty& property, std::uint64_t row) {
+  // False at the end of the file.
+  bool read_corners(const PlyProperty& property, std::uint64_t row) {
     double count = 0;
     if (!input_.read(*property.count_type, count)) return false;
-    if (!(count >= 3)) complain(fmt::format("face {} has {} vertices", row, count), "at least 3 vertices");
-    std::uint32_t first = 0, previous = 0;
+    if (!(count >= 3)) {
+      if (!(count >= 0)) complain(fmt::format("face {} has {} vertices", row, count), "at least 0");
+      complaints_.flaw_at(input_.last(), MeshFlaw::small_face,
+                          small_face_text(static_cast<std::size_t>(std::max(count, 0.0))));
+    }
+    faces_.corners.clear();
     for (double i = 0; i < count; ++i) {
       double value = 0;
       if (!input_.read(property.type, value)) return false;
@@ -276,12 +306,34 @@ class BodyReader {
         if (complaints_.gave_up()) return false;
         value = 0;
       }
-      const auto index = static_cast<std::uint32_t>(value);
-      if (i == 0) first = index;
-      if (i >= 2) mesh_.triangles.push_back({first, previous, index});
-      previous = index;
+      faces_.corners.push_back(static_cast<std::uint32_t>(value));
     }
     return true;
+  }
+
+  // The same.
+  bool read_corner_texcoords(const PlyProperty& property, std::uint64_t row) {
+    double count = 0, value = 0;
+    if (!input_.read(*property.count_type, count)) return false;
+    faces_.texcoords.clear();
+    for (double i = 0; i < count; ++i) {
+      if (!input_.read(property.type, value)) return false;
+      if (!(std::abs(value) <= kMaxFloat))
+        complaints_.flaw_at(input_.last(), MeshFlaw::not_finite,
+                            not_finite_text(fmt::format("a texture coordinate of face {} is {}", row, value)));
+      faces_.texcoords.push_back(static_cast<float>(value));
+    }
+    return true;
+  }
+
+  // Puts what was read of a face into the mesh.
+  void add_face(std::uint64_t row) {
+    const std::size_t corners = faces_.corners.size(), texcoords = faces_.texcoords.size();
+    if (texcoords != 0 && texcoords != 2 * corners && corners >= 3) {
+      complain(fmt::format("face {} has {} texture coordinates for {} vertices", row, texcoords, corners),
+               "two for each, or none");
+    }
+    if (!complaints_.any()) faces_.add();
   }
 
   const PlyHeader& header_;
@@ -289,6 +341,7 @@ class BodyReader {
   Input input_;
   MeshData mesh_;
   std::uint64_t vertex_count_ = 0;
+  PlyFaces faces_{mesh_};
 };
 
 std::optional<MeshData> read_body(const PlyHeader& header, std::string_view bytes, MeshComplaints& complaints) {
@@ -308,6 +361,7 @@ std::optional<MeshData> read_body(const PlyHeader& header, std::string_view byte
 
 std::optional<MeshData> read_ply(std::string_view bytes, const std::string& path, Diagnostics& diagnostics) {
   MeshComplaints complaints(path, bytes, diagnostics);
+  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
   try {
     const auto header = read_ply_header(bytes, complaints);
     return header ? read_body(*header, bytes, complaints) : std::nullopt;

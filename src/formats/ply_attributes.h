@@ -13,7 +13,12 @@ namespace norrsken {
 struct PlyTexcoordNames {
   std::string_view u, v;
 };
-inline constexpr PlyTexcoordNames kPlyTexcoordNames[] = {{"u", "v"}, {"texture_u", "texture_v"}, {"s", "t"}};
+inline constexpr PlyTexcoordNames kPlyTexcoordNames[] = {{"u", "v"},
+                                                         {"texture_u", "texture_v"},
+                                                         {"s", "t"},
+                                                         {"texture_s", "texture_t"},
+                                                         {"texcoord_s", "texcoord_t"},
+                                                         {"texcoord_u", "texcoord_v"}};
 
 struct PlyAttribute {
   std::string name;                     ///< "vertex_color", "face_weight"

@@ -92,9 +92,10 @@ class PlyTextInput {
     last_ = body_.substr(at_, stop - at_);
     at_ = stop;
     NumberStatus status = parse_number(last_, value);
-    // "nan" is for whoever asked for the value to judge; it may be a property that nobody asks for.
+    // These are for whoever asked for the value to judge; it may be a property that nobody asks for.
     if (status == NumberStatus::not_finite || status == NumberStatus::overflow) {
-      value = std::numeric_limits<double>::quiet_NaN();
+      constexpr double kHuge = std::numeric_limits<double>::max();
+      value = status == NumberStatus::overflow ? kHuge : std::numeric_limits<double>::quiet_NaN();
       status = NumberStatus::ok;
     }
     const bool fits = type >= PlyType::float32 || std::isnan(value) || value == std::floor(value);

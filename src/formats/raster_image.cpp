@@ -14,6 +14,7 @@ namespace {
 
 std::string read(std::string_view contents, RasterImage& image) {
   if (is_png(contents)) return read_png(contents, image);
+  if (is_radiance(contents)) return read_radiance(contents, image);
   return is_bmp(contents) ? read_bmp(contents, image) : read_targa(contents, image);
 }
 
@@ -48,20 +49,24 @@ void add_channels(const RasterImage& read, const Array<T>& values, float most, I
 
 }  // namespace
 
-bool is_raster_image(std::string_view contents) { return is_bmp(contents) || is_png(contents) || is_targa(contents); }
+bool is_raster_image(std::string_view contents) {
+  return is_bmp(contents) || is_png(contents) || is_radiance(contents) || is_targa(contents);
+}
 
 std::string read_raster_image(std::string_view contents, std::uint64_t most_bytes, Image& image) try {
   const MemoryScope scope(std::make_shared<MemoryBudget>(most_bytes));
   RasterImage raster;
   if (std::string error = read(contents, raster); !error.empty()) return error;
-  const MemoryReservation floats((raster.bytes.size() + raster.words.size()) * sizeof(float));
+  const MemoryReservation floats((raster.bytes.size() + raster.words.size() + raster.floats.size()) * sizeof(float));
   image.width = raster.width;
   image.height = raster.height;
   image.metadata = std::move(raster.metadata);
-  if (raster.words.empty()) {
-    add_channels(raster, raster.bytes, 255, image);
-  } else {
+  if (!raster.floats.empty()) {
+    add_channels(raster, raster.floats, 1, image);
+  } else if (!raster.words.empty()) {
     add_channels(raster, raster.words, 65535, image);
+  } else {
+    add_channels(raster, raster.bytes, 255, image);
   }
   return {};
 } catch (const MemoryExceeded& exceeded) {
@@ -77,9 +82,11 @@ std::string read_raster_texels(std::string_view contents, TexelImage& image) try
   image.height = raster.height;
   image.channels = color_channels(raster);
   image.is_encoded = !raster.is_linear;
+  keep_channels(raster.floats, raster.channels, image.channels);
   keep_channels(raster.bytes, raster.channels, image.channels);
   keep_channels(raster.words, raster.channels, image.channels);
   image.bytes = std::move(raster.bytes);
+  image.values = std::move(raster.floats);
   image.values.reserve(raster.words.size());
   for (const std::uint16_t word : raster.words) image.values.push_back(static_cast<float>(word) / 65535.0f);
   return {};

@@ -1,6 +1,6 @@
-// Images of integers, in formats that are read without OpenImageIO, which brings 260 libraries with it. Version 2.4 of it also
+// Images in formats that are read without OpenImageIO, which brings 260 libraries with it. Version 2.4 of it also
 // reads BMP and TGA past the ends of its buffers if a file is made for it (CVE-2023-22845 and -24473; its issue 5158), and
-// loses memory whenever libpng complains.
+// loses memory whenever libpng complains; and of a Radiance picture it does not heed in which order the pixels are.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,22 @@
 
 namespace norrsken {
 
-/// Row 0 is the top. width * height * channels integers, of 8 or of 16 bits: one of the two arrays is empty.
+/// Row 0 is the top. width * height * channels values in one of the arrays: integers of 8 or 16 bits, or floats.
 struct RasterImage {
   int width = 0, height = 0;
   int channels = 0;        ///< 1: grey, 2: grey and alpha, 3: red, green, blue, 4: with alpha
   bool is_linear = false;  ///< else colours are stored with sRGB's transfer function; alpha is always as it is
   Array<std::uint8_t> bytes;
   Array<std::uint16_t> words;
+  Array<float> floats;  ///< linear
   std::map<std::string, std::string> metadata;
 };
 
-/// Whether these are the contents of a BMP or PNG file (magic numbers), or of a TGA file: it has none, but no other format that
+/// Whether these are the contents of a BMP, PNG or Radiance file (magic numbers), or of a TGA file: it has none, but no other format that
 /// is read has a header that is one of TGA.
 bool is_bmp(std::string_view contents);
 bool is_png(std::string_view contents);
+bool is_radiance(std::string_view contents);
 bool is_targa(std::string_view contents);
 
 /// Read the image out of a file's contents: empty, or what is wrong. A header that promises more than the file can hold is.
@@ -38,6 +40,9 @@ bool is_targa(std::string_view contents);
 std::string read_bmp(std::string_view contents, RasterImage& image);
 /// PNG: all of it, through libpng; what 16 bits are in 16 bits, all else in 8. Text is metadata.
 std::string read_png(std::string_view contents, RasterImage& image);
+/// Radiance: flat, and both kinds of runs; RGBE and XYZE; rows and columns in any of the eight orders. What EXPOSURE, GAMMA and
+/// other lines say is not heeded, as in Mitsuba. Ward, "Radiance File Formats", section "Picture File Format (.hdr)".
+std::string read_radiance(std::string_view contents, RasterImage& image);
 /// TGA: grey, colour and palettes, also run-length encoded. Truevision, "TGA File Format Specification", version 2.0, 1991;
 /// what it calls extension and developer areas is not looked at.
 std::string read_targa(std::string_view contents, RasterImage& image);

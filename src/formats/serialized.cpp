@@ -13,6 +13,7 @@
 #include <new>
 
 #include "formats/mesh_complaints.h"
+#include "formats/mesh_flaws.h"
 #include "formats/mesh_readers.h"
 #include "scene/description.h"
 
@@ -108,6 +109,8 @@ class SerializedReader {
                                "a file as Mitsuba's exporters write it");
       return std::nullopt;
     }
+    complaints_.tell_flaws();
+    leave_out_not_finite(mesh_);
     return std::move(mesh_);
   }
 
@@ -149,9 +152,10 @@ class SerializedReader {
     std::uint64_t vertices = 0, triangles = 0;
     if (!input.read(vertices) || !input.read(triangles)) return false;
     if (vertices == 0 || triangles == 0) {
-      complaints_.about_file(fmt::format("mesh {} has no {}", shape_index_, vertices == 0 ? "vertices" : "triangles"),
-                             "at least one triangle");
-      return false;
+      complaints_.flaw_at({}, MeshFlaw::no_faces,
+                          fmt::format("mesh {} has no {}, nothing of it is drawn", shape_index_,
+                                      vertices == 0 ? "vertices" : "triangles"));
+      return true;
     }
     if (vertices >= std::numeric_limits<std::uint32_t>::max()) {
       complaints_.about_file(fmt::format("{} vertices are too many", vertices), "fewer than 2^32");
@@ -194,7 +198,6 @@ class SerializedReader {
       for (std::uint64_t at = 0; at < count;) {
         const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(count - at, std::size(block)));
         if (!input.read(block, size * sizeof(double))) return false;
-        // What is too large for a float is infinite then, and refused below.
         for (std::size_t i = 0; i < size; ++i) into[at + i] = static_cast<float>(block[i]);
         at += size;
       }
@@ -203,8 +206,12 @@ class SerializedReader {
     }
     for (std::uint64_t i = 0; i < count; ++i) {
       if (std::abs(into[i]) <= limit) continue;
-      complaints_.about_file(fmt::format("a {} of vertex {} is {:g}", what, i / per_vertex, into[i]),
-                             fmt::format("numbers from {:g} to {:g}", -limit, limit));
+      const std::string found = fmt::format("a {} of vertex {} is {:g}", what, i / per_vertex, into[i]);
+      if (!std::isfinite(into[i])) {
+        complaints_.flaw_at({}, MeshFlaw::not_finite, not_finite_text(found));
+        continue;
+      }
+      complaints_.about_file(found, fmt::format("numbers from {:g} to {:g}", -limit, limit));
       if (complaints_.gave_up()) return false;
     }
     return !complaints_.any();

@@ -168,10 +168,6 @@ TEST(SerializedErrors, Data) {
   EXPECT_EQ(complaints_about_mesh(counts(4, 0x1000, 3, ~std::uint64_t{0}) + kOneTriangle), ends);
   EXPECT_EQ(complaints_about_mesh(counts(4, 0x1000, 0xffffffffu) + kOneTriangle),
             "a.serialized: error: 4294967295 vertices are too many\naccepted: fewer than 2^32");
-  EXPECT_EQ(complaints_about_mesh(counts(4, 0x1000, 0) + kOneTriangle),
-            "a.serialized: error: mesh 0 has no vertices\naccepted: at least one triangle");
-  EXPECT_EQ(complaints_about_mesh(counts(4, 0x1000, 3, 0) + kOneTriangle),
-            "a.serialized: error: mesh 0 has no triangles\naccepted: at least one triangle");
   std::string broken = mesh(4, 0);
   broken[5] = '\x55';
   EXPECT_EQ(complaints(broken),
@@ -183,13 +179,39 @@ TEST(SerializedErrors, Values) {
   const double inf = INFINITY;
   EXPECT_EQ(
       complaints_about_mesh(counts(4, 0x1000) + numbers<float>({0, 0, 0, 1, inf, 0, 1, 1e13, 0}) + indices({0, 1, 2})),
-      "a.serialized: error: a position of vertex 1 is inf\naccepted: numbers from -1e+12 to 1e+12\n"
       "a.serialized: error: a position of vertex 2 is 1e+13\naccepted: numbers from -1e+12 to 1e+12");
-  EXPECT_EQ(complaints_about_mesh(counts(4, 0x2001) + numbers<double>(kCorners) +
-                                  numbers<double>({0, 0, 1, 0, 0, 1, 0, 0, 1e300}) + indices({0, 1, 2})),
-            "a.serialized: error: a normal of vertex 2 is inf\naccepted: numbers from -3.40282e+38 to 3.40282e+38");
   EXPECT_EQ(complaints_about_mesh(counts(4, 0x1000) + numbers<float>(kCorners) + indices({0, 1, 3})),
             "a.serialized: error: triangle 0 has a vertex 3\naccepted: 0 to 2");
+}
+
+/// A mesh that is read, and its warnings.
+std::pair<MeshData, std::string> read_with_warnings(const std::string& data) {
+  Diagnostics diagnostics;
+  auto mesh = read_serialized(header(4) + deflated(data), 0, "a.serialized", diagnostics);
+  EXPECT_TRUE(mesh.has_value());
+  return {mesh.value_or(MeshData{}), to_text(diagnostics)};
+}
+
+TEST(Serialized, MeshesOfNothingAreEmpty) {
+  EXPECT_EQ(read_with_warnings(counts(4, 0x1000, 0) + kOneTriangle).second,
+            "a.serialized: warning: mesh 0 has no vertices, nothing of it is drawn");
+  EXPECT_EQ(read_with_warnings(counts(4, 0x1000, 3, 0) + kOneTriangle).second,
+            "a.serialized: warning: mesh 0 has no triangles, nothing of it is drawn");
+}
+
+TEST(Serialized, WhatIsNotFiniteIsLeftOut) {
+  const double inf = INFINITY;
+  const auto [mesh, warning] =
+      read_with_warnings(counts(4, 0x2001) + numbers<double>({0, 0, 0, 1, inf, 0, 1, 1, 0}) +
+                         numbers<double>({0, 0, 1, 0, 0, 1, 0, 0, 1e300}) + indices({0, 1, 2}));
+  EXPECT_EQ(
+      warning,
+      "a.serialized: warning: a position of vertex 1 is inf: vertices that are not finite are left out with their "
+      "triangles, other values are taken for 0; the first of 2 such places");
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.triangles[0][0], mesh.triangles[0][1]) << "without an area";
+  EXPECT_EQ(mesh.positions.at(1), (std::array<float, 3>{0, 0, 0}));
+  EXPECT_EQ(mesh.normals.at(2), (std::array<float, 3>{0, 0, 0}));
 }
 
 TEST(SerializedErrors, EveryPrefixIsRefused) {

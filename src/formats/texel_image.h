@@ -18,6 +18,8 @@ struct TexelImage {
   /// width * height * channels: 8-bit integers, or if the file has others `values`, in which integers are in [0, 1].
   Array<std::uint8_t> bytes;
   Array<float> values;
+  /// What a user should know of how the file was taken: "has ..."; or nothing.
+  std::string remark;
 };
 
 /// Reads an image out of a file's `contents`; `path` is for its extension. Empty, or what is wrong: a header that promises

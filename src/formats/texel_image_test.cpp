@@ -94,11 +94,54 @@ TEST(TexelImage, WhatTheProgramWritesItReads) {
   EXPECT_EQ(jpeg.bytes.size(), 6u);
 }
 
+/// An EXR whose channels have these names and values, one pixel each.
+TexelImage exr_of(const std::vector<std::pair<std::string, float>>& channels) {
+  Image written;
+  written.width = written.height = 1;
+  for (const auto& [name, value] : channels) written.channel(name).values = {value};
+  TexelImage image;
+  EXPECT_EQ(
+      read_texels("a.exr", bytes_of("a.exr", [&](const std::string& path) { ASSERT_TRUE(write_image(path, written)); }),
+                  image),
+      "");
+  return image;
+}
+
+TEST(TexelImage, XyzBecomesSrgb) {
+  // The columns of the standard's matrix (IEC 61966-2-1): what red, green and blue are.
+  const TexelImage red = exr_of({{"X", 0.4124f}, {"Y", 0.2126f}, {"Z", 0.0193f}});
+  ASSERT_EQ(red.channels, 3);
+  EXPECT_NEAR(red.values[0], 1, 1e-3);
+  EXPECT_NEAR(red.values[1], 0, 1e-3);
+  EXPECT_NEAR(red.values[2], 0, 1e-3);
+  EXPECT_NEAR(exr_of({{"X", 0.1805f}, {"Y", 0.0722f}, {"Z", 0.9505f}}).values[2], 1, 1e-3);
+  EXPECT_EQ(exr_of({{"Y", 0.5f}}).values, (Array<float>{0.5f})) << "alone it is grey";
+}
+
+TEST(TexelImage, GuessesAtChannelsAreTold) {
+  EXPECT_EQ(exr_of({{"depth", 4}}).remark, "has no channels R, G, B or Y: depth is taken for grey");
+  EXPECT_EQ(exr_of({{"N.X", 1}, {"N.Y", 2}, {"N.Z", 3}}).remark,
+            "has no channels R, G, B or Y: N.X, N.Y, N.Z are taken for red, green, blue");
+  EXPECT_EQ(exr_of({{"Y", 1}, {"RY", 0}, {"BY", 0}}).remark,
+            "has colours in channels RY and BY, which are not read: Y is taken for grey");
+  EXPECT_EQ(exr_of({{"R", 1}}).remark, "");
+  EXPECT_EQ(exr_of({{"Y", 1}}).remark, "");
+  EXPECT_EQ(exr_of({{"r", 1}, {"g", 2}, {"b", 3}}).remark, "");
+  const TexelImage layer = exr_of({{"View.Combined.R", 1}, {"View.Combined.G", 2}, {"View.Combined.B", 3}});
+  EXPECT_EQ(layer.remark, "");
+  EXPECT_EQ(layer.values, (Array<float>{1, 2, 3}));
+}
+
 TEST(TexelImage, BadFilesAreRefused) {
   TexelImage image;
-  EXPECT_NE(read_texels("a.png", "no image", image), "");
-  EXPECT_NE(read_texels("a.exr", "", image), "");
-  EXPECT_NE(read_texels("a", "x", image), "");
+  EXPECT_EQ(read_texels("a.png", "no image", image), "unknown or damaged image file");
+  EXPECT_EQ(read_texels("a.exr", "", image), "it is empty");
+  EXPECT_EQ(read_texels("a", "x", image), "unknown or damaged image file");
+  EXPECT_EQ(read_texels("a.jpg", "RIFF....WEBPVP8 ", image), "it is a WebP file, which is not read");
+  EXPECT_EQ(read_texels("a.png", "version https://git-lfs.github.com/spec/v1\n", image),
+            "it is a pointer of Git LFS in place of the image");
+  EXPECT_EQ(read_texels("a.exr", "\x76\x2f\x31\x01\x02", image),
+            "it is a damaged EXR file, or of a kind that is not read");
   EXPECT_EQ(image.width, 0) << "changed on success only";
 }
 

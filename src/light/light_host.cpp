@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <glm/matrix.hpp>
+#include <limits>
 
 namespace norrsken {
 
@@ -31,11 +32,7 @@ std::optional<Texture> slide_texture(Parameters& p, Builder& builder, std::strin
     p.error(name, fmt::format("'{}' is an attribute of meshes", name), "a texture that needs no mesh, such as bitmap");
     return Texture{};
   }
-  if (texture.min < 0) {
-    p.error(name, fmt::format("'{}' has values from {:g} to {:g}", name, texture.min, texture.max),
-            "a texture with values of at least 0");
-  }
-  return texture;
+  return builder.within_range(p, name, texture, 0, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace norrsken

@@ -27,7 +27,11 @@ SourceLocation SourceText::location() const {
 SourceLocation SourceText::location(std::size_t offset, std::size_t length) const {
   if (line_starts_.empty()) {
     line_starts_.push_back(0);
-    for (std::size_t at = 0; (at = text_.find('\n', at)) != std::string_view::npos;) line_starts_.push_back(++at);
+    // Line breaks are LF, CRLF, or CR alone.
+    for (std::size_t at = 0; (at = text_.find_first_of("\r\n", at)) != std::string_view::npos;) {
+      at += text_.substr(at).starts_with("\r\n") ? 2 : 1;
+      line_starts_.push_back(at);
+    }
   }
   offset = std::min(offset, text_.size());
   const auto next_line = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);

@@ -22,6 +22,15 @@ TEST(SourceText, LinesAndColumnsCountFromOne) {
   EXPECT_EQ(text.location(11).column, 4);
 }
 
+TEST(SourceText, CarriageReturnsAloneEndLines) {
+  const SourceText text("a.obj", "ab\rcd\r\nef");
+  EXPECT_EQ(text.location(1).excerpt, "ab");
+  EXPECT_EQ(text.location(4).line, 2);
+  EXPECT_EQ(text.location(4).column, 2);
+  EXPECT_EQ(text.location(4).excerpt, "cd");
+  EXPECT_EQ(text.location(7).line, 3);
+}
+
 TEST(SourceText, PlacesAreCutAtTheEndOfTheirLineAndFile) {
   const SourceText text("a.xml", "abc\ndef");
   EXPECT_EQ(text.location(1, 100).length, 2);

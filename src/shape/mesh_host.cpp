@@ -90,7 +90,7 @@ void keep_triangles(MeshData& mesh, std::span<const std::uint32_t> keep) {
   }
 }
 
-bool drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
+void drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
   const std::size_t before = mesh.triangles.size();
   const auto has_area = [&](const Triangle& t) {
     return std::isnormal(static_cast<float>(glm::length(area_normal(mesh, t)) / 2));
@@ -103,18 +103,15 @@ bool drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
     keep_triangles(mesh, keep);
   }
   const std::size_t dropped = before - mesh.triangles.size();
-  if (mesh.triangles.empty()) {
-    p.error(p.has("filename") ? "filename" : "to_world",
-            before == 0 ? "the mesh has no triangles" : "no triangle of the shape has an area",
-            "triangles whose corners do not lie on one line");
-    return false;
-  }
-  if (dropped != 0) {
+  if (mesh.triangles.empty() && before != 0) {
+    p.diagnostics().warning(p.where(p.has("filename") ? "filename" : "to_world"),
+                            "no triangle of the shape has an area, nothing of it is drawn");
+  } else if (dropped != 0) {
     p.diagnostics().warning(p.where("filename"),
                             fmt::format("{} of {} triangles {} no area and {} left out", dropped, before,
                                         dropped == 1 ? "has" : "have", dropped == 1 ? "is" : "are"));
   }
-  return true;
+  if (mesh.triangles.empty()) mesh = {};
 }
 
 /// The file's bytes are let go of when they have been read.
@@ -168,7 +165,8 @@ bool normals_are_flat(const MeshData& mesh) {
 }
 
 bool place_mesh(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
-  if (!move_to_world(mesh, to_world, p) || !drop_degenerate_triangles(mesh, p)) return false;
+  if (!move_to_world(mesh, to_world, p)) return false;
+  drop_degenerate_triangles(mesh, p);
   if (!mesh.normals.empty()) {
     fill_missing_normals(mesh);
     wind_as_normals_say(mesh);

@@ -7,6 +7,9 @@
 //   flip_normals     boolean (default false): turn the surface inside out
 //   flip_tex_coords  boolean: v becomes 1 - v (default true for obj, false for ply; serialized has no such parameter)
 //
+// Polygons are cut into triangles as they look from the front of their best plane, concave ones too (Mitsuba draws fans).
+// Left out, with a warning: triangles without an area, faces of fewer than three corners, vertices that are not finite.
+//
 // Normals, as Mitsuba documents them: the file's own; without any, the mean of the faces around each vertex weighed
 // with the angle of their corner, so only vertices that faces do not share stay sharp. A mesh without normals of its
 // own is turned inside out by a mirroring `to_world`, like in Mitsuba, because its winding is what says where its front
@@ -37,7 +40,7 @@ std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, 
                                                std::optional<bool> flip_tex_coords);
 
 /// Takes positions and normals to the world, winds triangles as their normals say, and drops triangles without an area
-/// (a warning with their number). False after an error: nothing with an area, or a vertex too far away.
+/// (a warning with their number), possibly all. False after an error: a vertex too far away.
 bool place_mesh(MeshData& mesh, const glm::dmat4& to_world, Parameters& p);
 
 /// Turns the front of every triangle to the other side; normals are left alone.

@@ -232,8 +232,43 @@ TEST(MeshShape, DropsTrianglesWithoutAnArea) {
   EXPECT_EQ(c.tables().triangle_count(), 1u);
   EXPECT_THAT(c.messages(), ElementsAre("warning: 2 of 3 triangles have no area and are left out"));
   const Compiled all = compile_shape(mesh("a.obj"), {{"a.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n"}});
-  EXPECT_THAT(all.messages(), ElementsAre("error: no triangle of the shape has an area "
-                                          "[triangles whose corners do not lie on one line]"));
+  EXPECT_THAT(all.messages(), ElementsAre("warning: no triangle of the shape has an area, nothing of it is drawn"));
+  EXPECT_EQ(all.tables().triangle_count(), 0u);
+}
+
+TEST(MeshShape, WithoutTrianglesItIsNothing) {
+  // Beside another shape, as a light, and in a group.
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 2\n";
+  const Compiled c = compile_shape(mesh("a.ply", R"(<emitter type="area"/>)") + mesh("b.obj") +
+                                       R"(<shape type="shapegroup" id="g">)" + mesh("a.ply") + R"(</shape>
+                                       <shape type="instance"><ref id="g"/></shape>)",
+                                   {{"a.ply", ply}, {"b.obj", kTriangle}});
+  EXPECT_THAT(c.messages(), Each("warning: the mesh has no faces, nothing of it is drawn"));
+  EXPECT_EQ(c.tables().triangle_count(), 1u);
+}
+
+TEST(MeshShape, WhatIsNotFiniteIsLeftOutWithItsTriangles) {
+  const Compiled c = compile_shape(mesh("a.obj"), {{"a.obj",
+                                                    "v 0 0 2\nv 1 0 2\nv 0 1 2\nv nan 0 0\nvn nan 0 1\nvn 0 0 1\n"
+                                                    "f 1//1 2//2 3//2\nf 1//2 3//2 4//2\n"}});
+  ASSERT_EQ(c.messages().size(), 2u);
+  EXPECT_EQ(c.messages()[1], "warning: 1 of 2 triangles has no area and is left out");
+  EXPECT_EQ(c.tables().triangle_count(), 1u);
+  EXPECT_THAT(plane(c, 0), ElementsAre(0, 0, 1, 2));
+  EXPECT_EQ(c.tables().shapes.at(0).smooth, 0u) << "the missing normal is that of the face";
+}
+
+TEST(MeshShape, NormalsOfConcavePolygonsAreThoseOfTheirTriangles) {
+  // Flat, so that all normals are alike: a fan would turn some over, whatever corner it began with.
+  for (const char* face : {"f 1 2 3 4 5 6", "f 3 4 5 6 1 2", "f 5 6 1 2 3 4"}) {
+    const Compiled c = compile_shape(
+        mesh("a.obj"), {{"a.obj", std::string("v 0 0 0\nv 3 0 0\nv 3 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\n") + face}});
+    EXPECT_EQ(c.tables().shapes.at(0).smooth, 0u) << face;
+    EXPECT_EQ(c.tables().triangle_count(), 4u) << face;
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_THAT(plane(c, i), ElementsAre(0, 0, 1, 0)) << face;
+  }
 }
 
 TEST(MeshShape, RefusesVerticesFarBeyondTheScene) {

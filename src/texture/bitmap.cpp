@@ -5,10 +5,15 @@
 //   filter_type  bilinear (default) or nearest
 //   wrap_mode    repeat (default), mirror or clamp
 //   raw          boolean (default false): the numbers as they are stored, such as directions and heights. Otherwise
-//                8-bit and 16-bit integers are decoded from sRGB
+//                8-bit and 16-bit integers are decoded from sRGB, but those of a PNG that says that it is linear: a gAMA
+//                chunk of 1 without an sRGB chunk
 //   to_uv        transform (default identity): of texture coordinates, in x and y
 //   format       auto (default), variant or fp16, and accel (boolean): how Mitsuba stores and looks up texels; accepted
 //                and without effect
+// Values of an image that are out of the range of what they stand for are clamped, with a warning. So are infinite ones, at
+// 65504 (the largest of half precision), and what is no number is 0. EXR: the channels R G B, X Y Z (CIE, turned into sRGB)
+// or Y, of any layer; a warning says which others are taken for them. HDR: RGBE and XYZE, rows and columns in any order;
+// EXPOSURE and GAMMA are not heeded, as in Mitsuba.
 // Stored: to_uv (6 floats), width, height, then words: first texel, stride, byte table, wrap mode, 1 if nearest.
 #include "compile/plugins.h"
 
@@ -26,15 +31,26 @@ Texture compile_texture_bitmap(Parameters& p, Builder& builder) {
   if (filename.empty()) return {};
   const auto image = builder.images().load(filename, raw, p.where("filename"));
   if (!image) return {};
-  block.add(image->width).add(image->height);
-  block.add_word(image->texels).add_word(image->stride).add_word(image->table);
-  block.add_word(wrap_mode == "repeat" ? 0 : wrap_mode == "mirror" ? 1 : 2).add_word(nearest);
-  return {builder.add_texture(TextureKind::bitmap, block),
-          image->mean,
-          image->min,
-          image->max,
-          image->width,
-          image->height};
+  const std::uint32_t wrap = wrap_mode == "repeat" ? 0 : wrap_mode == "mirror" ? 1 : 2;
+  const auto texture_of = [&builder, block, wrap, nearest](const StoredImage& stored) {
+    ParameterBlock whole = block;
+    whole.add(stored.width).add(stored.height);
+    whole.add_word(stored.texels).add_word(stored.stride).add_word(stored.table).add_word(wrap).add_word(nearest);
+    return Texture{builder.add_texture(TextureKind::bitmap, whole),
+                   stored.mean,
+                   stored.min,
+                   stored.max,
+                   stored.width,
+                   stored.height};
+  };
+  Texture texture = texture_of(*image);
+  // Bytes are fractions, which every range has.
+  if (image->stride == 0) return texture;
+  texture.clamped = [&builder, texture_of, image](double min, double max, const SourceLocation& place) {
+    const auto clamped = builder.images().clamped(*image, min, max, place);
+    return clamped ? texture_of(*clamped) : Texture{};
+  };
+  return texture;
 }
 
 }  // namespace norrsken

@@ -1,8 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "compile/compile_testing.h"
 
@@ -22,6 +27,11 @@ std::string bmp() {
   add(1, 2), add(24, 2);
   for (const std::uint32_t value : {0u, 16u, 2835u, 2835u, 0u, 0u}) add(value, 4);
   return bytes + std::string("\x07\x08\x09\x0a\x00\xff\0\0\x01\x02\x03\x04\x05\x06\0\0", 16);
+}
+
+/// 2 x 1 PFM of colours.
+std::string pfm(const std::vector<float>& values) {
+  return "PF\n2 1\n-1.0\n" + std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
 }
 
 Compiled compile_texture(const std::string& texture, const std::string& more = {}) {
@@ -88,6 +98,97 @@ TEST(BitmapHost, ReadsAFileOnceHoweverOftenItIsNamed) {
       bitmap(R"(<string name="filename" value="./a.bmp"/><string name="wrap_mode" value="clamp"/>)") +
       "</bsdf></shape>";
   EXPECT_EQ(compile_texture(bitmap(kFile), other).tables().texels.size(), 256u + 4);
+}
+
+/// A diffuse shape and another one, whose reflectances are textures of these float files.
+Compiled compile_floats(const std::vector<float>& values, const std::string& more = {}) {
+  return compile_elements(kSensor + kEmitter + R"(<bsdf type="diffuse" id="b">
+    <texture name="reflectance" type="bitmap"><string name="filename" value="a.pfm"/></texture></bsdf>
+    <shape type="rectangle"><ref id="b"/></shape><shape type="sphere"><ref id="b"/></shape>)" +
+                              more,
+                          {{"a.pfm", pfm(values)}});
+}
+
+TEST(BitmapHost, TexelsOutOfRangeAreClampedWithOneWarning) {
+  const Compiled c = compile_floats({-0.25f, 0.5f, 1, 0.5f, 1.5f, 0.25f});
+  EXPECT_THAT(c.messages(), ElementsAre("warning: 'reflectance' has values from -0.25 to 1.5: those below 0 are taken "
+                                        "for 0, those above 1 for 1"));
+  const auto p = stored(c, TextureKind::bitmap);
+  const auto& t = c.tables().texels;
+  const std::uint32_t first = word_at(p, 8);
+  EXPECT_THAT(std::vector(t.begin() + first, t.begin() + first + 6), ElementsAre(0, 0.5f, 1, 0.5f, 1, 0.25f));
+  const float* mean = &c.tables().parameters.at(c.tables().surfaces.at(0).material_front & kMaterialOffsetMask);
+  EXPECT_THAT(std::vector(mean, mean + 3), ElementsAre(0.25f, 0.75f, 0.625f)) << "that of what is drawn";
+  EXPECT_THAT(compile_floats({0, 0, -1e-5f, 0, 0, 0}).messages(),
+              ElementsAre("warning: 'reflectance' has values from -1e-05 to 0: those below 0 are taken for 0"));
+  EXPECT_THAT(compile_floats({0, 0, 5, 0, 0, 0}).messages(),
+              ElementsAre("warning: 'reflectance' has values from 0 to 5: those above 1 are taken for 1"));
+  EXPECT_THAT(compile_floats({0, 0, 1, 0, 0, 0}).messages(), IsEmpty());
+}
+
+TEST(BitmapHost, WhatUsesOtherRangesSeesTheFilesOwnTexels) {
+  const Compiled c =
+      compile_floats({0, 0, 5, 0, 0, 0},
+                     R"(<shape type="rectangle"><emitter type="area"><texture name="radiance" type="bitmap">
+      <string name="filename" value="a.pfm"/></texture></emitter></shape>)");
+  EXPECT_EQ(c.messages().size(), 1u);
+  const auto& t = c.tables();
+  EXPECT_EQ(t.texels.at(word_at(stored(c, TextureKind::bitmap), 8) + 2), 1);
+  EXPECT_EQ(*std::ranges::max_element(t.texels), 5);
+}
+
+TEST(BitmapHost, SlidesOfLightsAreClampedToo) {
+  for (const char* light : {R"(<emitter type="projector"><texture name="irradiance" type="bitmap">)",
+                            R"(<emitter type="spot"><texture name="texture" type="bitmap">)"}) {
+    const Compiled c =
+        compile_elements(kSensor + kShape + light + R"(<string name="filename" value="a.pfm"/></texture></emitter>)",
+                         {{"a.pfm", pfm({-1, 2, 3, 4, 5, 6})}});
+    ASSERT_EQ(c.messages().size(), 1u);
+    EXPECT_THAT(c.messages()[0], ::testing::EndsWith("has values from -1 to 6: those below 0 are taken for 0"));
+    EXPECT_EQ(c.tables().texels.at(6), 0) << "a copy";
+  }
+}
+
+TEST(BitmapHost, TexelsThatAreNotFiniteAreReplaced) {
+  const float inf = std::numeric_limits<float>::infinity();
+  const Compiled c =
+      compile_elements(kSensor + R"(<shape type="rectangle"><emitter type="area"><texture name="radiance" type="bitmap">
+      <string name="filename" value="a.pfm"/></texture></emitter></shape>)",
+                       {{"a.pfm", pfm({inf, 1, std::nanf(""), 2, 3, 4})}});
+  EXPECT_THAT(c.messages(),
+              ElementsAre("warning: the image 'a.pfm' has 2 values that are not finite: infinite ones are "
+                          "taken for 65504, others for 0"));
+  EXPECT_THAT(c.tables().texels, ElementsAre(65504, 1, 0, 2, 3, 4));
+}
+
+TEST(Textures, OnMeshesWithoutTextureCoordinatesAreWarnedOf) {
+  const std::string plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto messages = [&](const std::string& inside, const std::string& obj) {
+    return compile_elements(kSensor + kEmitter + R"(<shape type="obj"><string name="filename" value="a.obj"/>)" +
+                                inside + "</shape>",
+                            {{"a.obj", obj}, {"a.bmp", bmp()}})
+        .messages();
+  };
+  const auto warns = [](const std::string& plugin) {
+    return ElementsAre(::testing::MatchesRegex("warning: shape 'obj' has no texture coordinates: texture '" + plugin +
+                                               "' \\(scene.xml:[0-9]+:[0-9]+\\) is drawn anew on every triangle"));
+  };
+  const std::string diffuse = R"(<bsdf type="diffuse">)" + bitmap(kFile) + "</bsdf>";
+  EXPECT_THAT(messages(diffuse, plain), warns("bitmap"));
+  EXPECT_THAT(messages(R"(<bsdf type="twosided">)" + diffuse + "</bsdf>", plain), warns("bitmap"));
+  EXPECT_THAT(
+      messages(R"(<bsdf type="bumpmap"><texture type="bitmap">)" + kFile + R"(</texture><bsdf type="diffuse"/></bsdf>)",
+               plain),
+      warns("bitmap"));
+  EXPECT_THAT(messages(R"(<emitter type="area"><texture name="radiance" type="checkerboard"/></emitter>)", plain),
+              warns("checkerboard"));
+  EXPECT_THAT(messages(diffuse, "vt 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/1 3/1\n"), IsEmpty());
+  EXPECT_THAT(messages(R"(<bsdf type="diffuse"><texture name="reflectance" type="uniform">
+                       <float name="value" value="0.5"/></texture></bsdf>)",
+                       plain),
+              IsEmpty())
+      << "the same everywhere";
+  EXPECT_THAT(messages(R"(<bsdf type="diffuse"/>)", plain), IsEmpty());
 }
 
 TEST(BitmapHost, RefusesWhatItCannotRead) {
