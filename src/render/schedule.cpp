@@ -63,8 +63,7 @@ std::uint32_t SampleSchedule::next_mean(const FilmError& error, std::uint32_t re
   if (target_error_ > 0) {
     const RelativeError now = error.relative();
     // The upper end, so that the true error is as small as that, too.
-    const bool is_dark = now.value < 0 && error.channels > 0;
-    if ((now.value >= 0 && now.high <= target_error_) || (is_dark && reached >= kDarkSamples)) return reached;
+    if (now.value >= 0 ? now.high <= target_error_ : reached >= kDarkSamples) return reached;
     const double ratio = now.value > 0 ? now.high / target_error_ : 2;
     const double needed = std::ceil(reached * ratio * ratio / kBlock) * kBlock;
     if (needed < mean) mean = std::max(static_cast<std::uint32_t>(needed), reached + 1);

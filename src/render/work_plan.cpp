@@ -105,12 +105,15 @@ WaveJob WorkPlan::remaining(WaveJob job, std::uint32_t done, std::uint32_t goal)
 std::vector<WorkPlan> plan_passes(const TileGrid& grid, SampleRange samples) {
   std::vector<WorkPlan> passes;
   std::uint32_t first = 0;
-  for (const std::uint32_t end : {1u, grid.longest_block, samples.count()}) {
+  const auto pass_up_to = [&](std::uint32_t end) {
     const SampleRange numbers{first, std::min(end, samples.count())};
-    if (numbers.end <= numbers.first) continue;
+    if (numbers.end <= numbers.first) return;
     passes.emplace_back(grid, numbers, samples.first);
     first = numbers.end;
-  }
+  };
+  for (std::uint32_t end = 1; end < grid.longest_block; end *= 2) pass_up_to(end);
+  pass_up_to(grid.longest_block);
+  pass_up_to(samples.count());
   return passes;
 }
 

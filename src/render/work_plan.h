@@ -66,8 +66,9 @@ class WorkPlan {
   std::uint64_t areas_, blocks_;
 };
 
-/// The passes in which samples are rendered. The first takes one sample of every pixel, so that an image that is
-/// interrupted early has no holes; the second completes the first block.
+/// The passes in which samples are rendered. The first takes one sample of every pixel, so that an image that is interrupted
+/// soon has no holes; the second another one, from when on the error of all is known; those that follow double what there
+/// is until the first block is complete.
 std::vector<WorkPlan> plan_passes(const TileGrid& grid, SampleRange samples);
 
 /// Whether an image may have come so far on the way to `goal`: no tile has more, and those that come in one wave have come

@@ -124,11 +124,14 @@ TEST(WorkPlan, KnowsWhatCannotBe) {
 TEST(WorkPlan, BeginsWithOneSampleOfEveryPixel) {
   const TileGrid grid(800, 800, 1024);
   const std::vector<WorkPlan> passes = plan_passes(grid, {0, 64});
-  ASSERT_EQ(passes.size(), 3u);
+  ASSERT_EQ(passes.size(), 6u);
   EXPECT_EQ(passes[0].wave_count(), 625u);
   for (std::uint64_t i = 0; i < passes[0].wave_count(); ++i) EXPECT_EQ(passes[0].wave(i).sample_count, 1u);
-  EXPECT_EQ(passes[1].wave(0).first_sample, 1u);
-  EXPECT_EQ(passes[1].wave(0).sample_count, 15u);
+  for (std::size_t pass = 1; pass < 5; ++pass) {
+    EXPECT_EQ(passes[pass].wave(0).first_sample, 1u << (pass - 1));
+    EXPECT_EQ(passes[pass].wave(0).sample_count, 1u << (pass - 1));
+  }
+  EXPECT_EQ(passes[5].wave(0).sample_count, 16u);
 }
 
 }  // namespace
