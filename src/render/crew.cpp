@@ -129,14 +129,17 @@ TileGrid Crew::grid(const SceneView& scene, std::uint32_t width, std::uint32_t h
 }
 
 void Crew::run_features(const Tick& tick) {
-  for (const WorkPlan& plan : plan_passes(work_.grid, work_.feature_samples)) {
+  const TileProgress& progress = work_.feature_progress;
+  const WorkPlan::Cut cut = cut_for(work_.grid, work_.feature_samples, progress, progress);
+  for (const WorkPlan& plan : plan_passes(work_.grid, work_.feature_samples, cut)) {
     if (!run_pass(Pass::features, plan, tick)) return;
   }
 }
 
 void Crew::run(const Tick& tick) {
   const Pass pass = scene_.integrator.from_lights ? Pass::particles : Pass::radiance;
-  for (const WorkPlan& plan : plan_passes(work_.grid, work_.samples)) {
+  const WorkPlan::Cut cut = cut_for(work_.grid, work_.samples, work_.goal.of_tile, work_.progress);
+  for (const WorkPlan& plan : plan_passes(work_.grid, work_.samples, cut)) {
     if (!run_pass(pass, plan, tick)) return;
   }
 }
