@@ -107,7 +107,7 @@ ScalarParameter Builder::scalar(Parameters& p, std::string_view name, double fal
   if (const auto texture = texture_of(p, name, min, max))
     return {(texture->mean.x + texture->mean.y + texture->mean.z) / 3,
             texture->number != 0 ? texture->number : texture->word};
-  return {p.number(name, fallback, min, max, ends)};
+  return {p.mean(name, fallback, min, max, ends)};
 }
 
 std::uint32_t Builder::add_parameters(std::span<const float> values) {
@@ -128,6 +128,7 @@ MaterialWord Builder::add_material(BsdfKind kind, const ParameterBlock& paramete
 
 std::uint32_t Builder::add_light(const LightRecord& light, const LightPower& power) {
   light_powers_.push_back(power);
+  light_powers_.back().weight = sampling_weight_;
   tables().lights.push_back(light);
   return static_cast<std::uint32_t>(tables().lights.size() - 1);
 }
@@ -299,10 +300,17 @@ void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
   override_samples_per_pixel(options);
   if (!diagnostics_.has_errors()) measure_film(film_place, options.reserve_film);
   tables().camera = plugin->compile(p, *this, tables().film);
+  view_place_ = p.where("far_clip");
   p.finish();
 }
 
-void Builder::choose_lights() { norrsken::choose_lights(tables(), light_powers_); }
+void Builder::choose_lights() {
+  if (!light_powers_.empty() && std::ranges::all_of(light_powers_, [](const LightPower& p) { return p.weight == 0; })) {
+    diagnostics_.error(description_.scene->location, "every emitter has a sampling_weight of 0",
+                       "a sampling_weight above 0 for one of them");
+  }
+  norrsken::choose_lights(tables(), light_powers_);
+}
 
 void Builder::summarise() {
   const SceneTables& t = tables();
@@ -343,13 +351,14 @@ LoadedScene Builder::build(const LoadOptions& options) {
     }
   }
   const auto shapes = p.children("shape");
-  if (shapes.empty()) diagnostics_.error(root.location, "the scene has no shape", "<shape type=\"...\">");
   for (const Node::Child* child : shapes) compile_shape(*child->node);
   for (const Node::Child* child : p.children("emitter")) compile_emitter(*child->node, kNone);
   refuse_kinds_to_come(p);
   p.finish();
-  if (tables().lights.empty() && !diagnostics_.has_errors()) {
-    diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
+  if (!diagnostics_.has_errors()) {
+    if (shapes.empty()) diagnostics_.warning(root.location, "the scene has no shape");
+    if (tables().lights.empty()) diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
+    tell_what_is_beyond_view();
   }
   geometry_.finish(scene_.info);
   attributes_.finish();

@@ -166,6 +166,9 @@ class Builder {
   const Node* texture_by_uv(const Node& node);
   void compile_emitter(const Node& node, std::uint32_t shape);
   void choose_lights();
+  /// Remembers the shape that was added last, if the camera cannot see that far.
+  void remember_if_beyond_view(const Node& node);
+  void tell_what_is_beyond_view();
   void summarise();
 
   template <class Function>
@@ -189,6 +192,10 @@ class Builder {
   std::optional<Material> default_material_;
   int bsdf_depth_ = 0;
   int integrator_depth_ = 0;
+  double sampling_weight_ = 1;  ///< of the emitter that is being compiled
+  std::vector<const Node*> beyond_view_;
+  double farthest_ = 0;  ///< depth of what is beyond the camera's view
+  SourceLocation view_place_;
   Array<LightPower> light_powers_;
 };
 

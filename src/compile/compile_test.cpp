@@ -12,10 +12,36 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-TEST(Compile, ASceneNeedsASensorAndAShape) {
+TEST(Compile, ASceneNeedsASensor) {
   EXPECT_THAT(compile_elements("").messages(),
-              ElementsAre("error: the scene has no sensor [<sensor type=\"perspective\">]",
-                          "error: the scene has no shape [<shape type=\"...\">]"));
+              ElementsAre("error: the scene has no sensor [<sensor type=\"perspective\">]"));
+}
+
+TEST(Compile, AnEnvironmentAloneIsAScene) {
+  const Compiled c = compile_elements(kSensor + R"(<emitter type="constant"/>)");
+  EXPECT_TRUE(c.scene);
+  EXPECT_THAT(c.messages(), ElementsAre("warning: the scene has no shape"));
+  EXPECT_THAT(compile_elements(kSensor).messages(),
+              ElementsAre("warning: the scene has no shape", "warning: the scene has no emitter: its image is black"));
+}
+
+TEST(Compile, WarnsOfWhatIsBeyondTheCamerasView) {
+  const std::string sensor = R"(<sensor type="perspective"><float name="far_clip" value="100"/>)"
+                             R"(<film type="hdrfilm"><rfilter type="box"/></film></sensor>)";
+  const auto sphere_at = [](const std::string& z, const std::string& id) {
+    return "<shape type=\"sphere\"" + id + "><point name=\"center\" x=\"0\" y=\"0\" z=\"" + z + "\"/></shape>\n";
+  };
+  // Near enough, behind the camera, and half of it in view.
+  const std::string seen = sphere_at("50", "") + sphere_at("-500", "") + sphere_at("100.5", "");
+  EXPECT_THAT(compile_elements(sensor + kEmitter + seen).messages(), IsEmpty());
+  EXPECT_THAT(
+      compile_elements(sensor + kEmitter + "\n" + seen + sphere_at("102", " id=\"far\"") + sphere_at("300", "") +
+                       R"(<shape type="shapegroup" id="group">)" + sphere_at("0", "") + "</shape>" +
+                       R"(<shape type="instance" id="copy"><ref id="group"/>)"
+                       R"(<transform name="to_world"><translate z="200"/></transform></shape>)")
+          .messages(),
+      ElementsAre("warning: what is farther away than 'far_clip', 100, is not seen: 'far', a sphere in line 7, "
+                  "'copy' [a far_clip of at least 301]"));
 }
 
 TEST(Compile, WarnsOfASceneWithoutLight) {

@@ -14,7 +14,7 @@
 namespace norrsken {
 namespace {
 
-constexpr int kMaxKept = 100;  // errors, and as many warnings
+constexpr int kMaxKept = 100;  // of each severity
 constexpr int kTabStop = 4;
 constexpr int kMaxWidth = 100;  // columns of an excerpt
 constexpr std::string_view kEllipsis = "...";
@@ -110,6 +110,8 @@ std::string place_text(const SourceLocation& location) {
 
 bool says_the_same(const Diagnostic& a, const Diagnostic& b) {
   const SourceLocation &x = a.location, &y = b.location;
+  // A note is about the scene, not about one place of it.
+  if (a.severity == Diagnostic::Severity::note && b.severity == a.severity) return a.message == b.message;
   return a.severity == b.severity && x.line == y.line && x.column == y.column && x.file == y.file &&
          a.message == b.message;
 }
@@ -124,6 +126,10 @@ void Diagnostics::warning(SourceLocation location, std::string message, std::str
   add({Diagnostic::Severity::warning, std::move(message), std::move(accepted), std::move(location)}, warning_count_);
 }
 
+void Diagnostics::note(SourceLocation location, std::string message, std::string accepted) {
+  add({Diagnostic::Severity::note, std::move(message), std::move(accepted), std::move(location)}, note_count_);
+}
+
 void Diagnostics::add(Diagnostic diagnostic, int& count) {
   if (count <= kMaxKept) {
     if (const auto place = named_at_.find(diagnostic.location.file); place != named_at_.end())
@@ -134,9 +140,8 @@ void Diagnostics::add(Diagnostic diagnostic, int& count) {
   if (count < kMaxKept) {
     all_.push_back(std::move(diagnostic));
   } else if (count == kMaxKept) {
-    const bool is_error = diagnostic.severity == Diagnostic::Severity::error;
     all_.push_back({diagnostic.severity,
-                    fmt::format("more than {} {}, the rest are left out", kMaxKept, is_error ? "errors" : "warnings"),
+                    fmt::format("more than {} {}s, the rest are left out", kMaxKept, name_of(diagnostic.severity)),
                     {},
                     {}});
   }
@@ -168,11 +173,22 @@ void Diagnostics::sort() {
   all_ = std::move(sorted);
 }
 
+std::string_view name_of(Diagnostic::Severity severity) {
+  switch (severity) {
+    case Diagnostic::Severity::error:
+      return "error";
+    case Diagnostic::Severity::warning:
+      return "warning";
+    default:
+      return "note";
+  }
+}
+
 std::string to_text(const Diagnostic& diagnostic) {
   const SourceLocation& location = diagnostic.location;
   std::string text;
   if (!location.file.empty()) text = place_text(location) + ": ";
-  text += diagnostic.severity == Diagnostic::Severity::error ? "error: " : "warning: ";
+  text += fmt::format("{}: ", name_of(diagnostic.severity));
   text += printable(diagnostic.message);
   if (location.line > 0 && !location.excerpt.empty()) {
     const auto [excerpt, mark] = excerpt_and_mark(location);

@@ -226,6 +226,16 @@ struct IntegratorSettings {
   bool distance = false;        ///< the image is the distance from the camera
   bool hide_emitters = false;   ///< the camera looks through surfaces that emit, and sees no environment
   bool from_lights = false;  ///< ptracer: paths start at the lights, and every surface they hit is shown to the camera
+  /// Whether surfaces sample directions wherever they sample lights, so that paths find lights by themselves too.
+  bool finds_lights() const { return !from_lights && diffuse_bounces && bsdf_samples > 0; }
+};
+
+/// A cell of the alias table by which a light around the scene, or the tree, is chosen where lights are chosen by place.
+struct AroundLight {
+  std::uint32_t light;  ///< kNone: the tree
+  std::uint32_t alias;  ///< in its place, with the probability 1 - keep
+  float keep;
+  float prob;  ///< of `light` in all
 };
 
 /// The arrays. Triangle i has corners positions[3 * triangle_vertices[3 * i + k] ...].
@@ -247,7 +257,7 @@ struct SceneTables {
   Array<LightRecord> lights;
   Array<LightNode> light_nodes;        ///< empty where lights are chosen by power alone
   Array<std::uint32_t> light_leaves;   ///< by light, its leaf among the nodes, or kNone
-  Array<std::uint32_t> lights_around;  ///< chosen beside the tree
+  Array<AroundLight> lights_around;    ///< chosen beside the tree, which is the last
   std::uint32_t bsdf_kinds = 0;        ///< bit k: a material of BsdfKind k was made; it may be behind another one
   std::uint32_t material_choices = 0;  ///< the most that stand one behind the other before a model
   std::uint32_t texture_kinds = 0;     ///< bit k: TextureKind k occurs
