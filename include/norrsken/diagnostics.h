@@ -54,6 +54,9 @@ class Diagnostics {
   int error_count_ = 0, warning_count_ = 0;
 };
 
+/// "room.xml:6:36", as far as it is known.
+std::string place_text(const SourceLocation& location);
+
 /// The form in which a person reads a diagnostic, without a trailing line break:
 ///
 ///     room.xml:12:15: error: unknown bsdf 'difuse', did you mean 'diffuse'?

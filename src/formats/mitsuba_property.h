@@ -8,6 +8,7 @@
 
 #include "formats/mitsuba_element.h"
 #include "formats/mitsuba_parameters.h"
+#include "formats/mitsuba_upgrade.h"
 #include "formats/xml_document.h"
 #include "scene/description.h"
 #include "scene/file_system.h"
@@ -20,6 +21,7 @@ struct MitsubaContext {
   Diagnostics& diagnostics;
   SceneParameters parameters;
   std::vector<std::string> search_paths;
+  MitsubaUpgrade upgrade;
 
   Element open(const XmlDocument& document, pugi::xml_node node, const AttributeRules& rules) {
     return open_element(document, node, rules, parameters, diagnostics);
@@ -35,11 +37,14 @@ struct MitsubaContext {
 /// boolean, float, ...
 const std::vector<std::string>& value_types();
 
-/// The attributes that a value element may have.
-AttributeRules value_rules(std::string_view type);
+/// Those of them that Mitsuba 0.x had besides: blackbody, srgb.
+const std::vector<std::string>& old_value_types();
 
-/// The property that `xml`, opened as `element`, gives. Empty after a complaint.
+/// The attributes that a value element may have in a scene of that version.
+AttributeRules value_rules(std::string_view type, SceneVersion version);
+
+/// The property that `xml`, opened as `element`, gives; `name` is its name today. Empty after a complaint.
 std::optional<Property> read_property(MitsubaContext& context, const XmlDocument& document, pugi::xml_node xml,
-                                      const Element& element);
+                                      const Element& element, const std::string& name);
 
 }  // namespace norrsken

@@ -100,14 +100,6 @@ std::pair<std::string, std::string> excerpt_and_mark(const SourceLocation& locat
   return {text, carets};
 }
 
-// "room.xml:6:36", as far as it is known.
-std::string place_text(const SourceLocation& location) {
-  std::string text = printable(location.file);
-  if (location.line > 0) text += fmt::format(":{}", location.line);
-  if (location.line > 0 && location.column > 0) text += fmt::format(":{}", location.column);
-  return text;
-}
-
 bool says_the_same(const Diagnostic& a, const Diagnostic& b) {
   const SourceLocation &x = a.location, &y = b.location;
   return a.severity == b.severity && x.line == y.line && x.column == y.column && x.file == y.file &&
@@ -166,6 +158,13 @@ void Diagnostics::sort() {
   sorted.reserve(all_.size());
   for (const std::size_t place : places) sorted.push_back(std::move(all_[place]));
   all_ = std::move(sorted);
+}
+
+std::string place_text(const SourceLocation& location) {
+  std::string text = printable(location.file);
+  if (location.line > 0) text += fmt::format(":{}", location.line);
+  if (location.line > 0 && location.column > 0) text += fmt::format(":{}", location.column);
+  return text;
 }
 
 std::string to_text(const Diagnostic& diagnostic) {

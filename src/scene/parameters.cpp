@@ -333,7 +333,7 @@ void Parameters::finish() {
   for (const Property& property : node_.properties) {
     if (asked_names_.contains(property.name)) continue;
     diagnostics_.error(property.name_location,
-                       fmt::format("unused parameter {} of {}{}", quoted(property.name), name_of(node_),
+                       fmt::format("unused parameter {} of {}{}", quoted(property.file_name()), name_of(node_),
                                    did_you_mean(property.name, names)),
                        names.empty() ? none : join(names));
   }
