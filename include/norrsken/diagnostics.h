@@ -23,8 +23,9 @@ struct SourceLocation {
 struct Diagnostic {
   enum class Severity { error, warning };
   Severity severity = Severity::error;
-  std::string message;   ///< what was found, without a full stop: "unknown bsdf 'difuse'"
-  std::string accepted;  ///< what would have been accepted: "conductor, diffuse, twosided"; may be empty
+  std::string message;  ///< what was found, without a full stop: "unknown bsdf 'difuse'"
+  std::string
+      accepted;  ///< what would have been accepted: "conductor, diffuse, twosided"; may be empty, or have several lines
   SourceLocation location;
 };
 

@@ -21,6 +21,7 @@ struct LoadOptions {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< -Dname=value, in order, later ones win
   std::optional<std::string> integrator = {};                   ///< plugin name in place of the file's
   std::optional<std::string> sampler = {};
+  std::optional<std::string> sensor = {};  ///< its id, or its number from 0; empty: the first
   std::optional<int> width = {}, height = {};
   /// In place of the scene's; a $spp parameter that `parameters` does not set follows.
   std::optional<int> samples_per_pixel = {};

@@ -174,6 +174,7 @@ class Builder {
   std::map<const Node*, Material> materials_;
   std::map<const Node*, Texture> textures_;
   std::optional<Material> default_material_;
+  bool is_whole_ = true;  ///< whether the scene was read without errors: what is missing is not in the file
   int bsdf_depth_ = 0;
   int integrator_depth_ = 0;
   Array<LightPower> light_powers_;

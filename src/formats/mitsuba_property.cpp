@@ -10,8 +10,7 @@
 namespace norrsken {
 namespace {
 
-std::optional<Property::Spectrum> read_spectrum_element(const MitsubaContext& context, const XmlDocument& document,
-                                                        const Element& element) {
+std::optional<Property::Spectrum> read_spectrum_element(const MitsubaContext& context, const Element& element) {
   const Literal* value = element.find("value");
   const Literal* filename = element.find("filename");
   if ((value == nullptr) == (filename == nullptr)) {
@@ -20,12 +19,8 @@ std::optional<Property::Spectrum> read_spectrum_element(const MitsubaContext& co
     return std::nullopt;
   }
   if (value) return read_spectrum(*value, context.diagnostics);
-  const std::string path = resolve_file(context.files, filename->text, document.source().path(), context.search_paths);
-  if (path.empty()) {
-    context.diagnostics.error(filename->location(), fmt::format("there is no file {}", filename->quote(filename->text)),
-                              context.accepted_files(document, filename->text));
-    return std::nullopt;
-  }
+  const std::string path = context.find_file(*filename);
+  if (path.empty()) return std::nullopt;
   std::string error;
   const auto contents = context.files.read(path, error);
   context.diagnostics.named_at(path, filename->location());
@@ -82,7 +77,7 @@ bool fill(Property& property, MitsubaContext& context, const XmlDocument& docume
   if (type == "blackbody") return put(read_blackbody(element, context.diagnostics));
   if (type == "spectrum" && is_old && is_triple(element))
     return put(read_rgb(*element.find("value"), HexColor::linear, context.diagnostics));
-  if (type == "spectrum") return put(read_spectrum_element(context, document, element));
+  if (type == "spectrum") return put(read_spectrum_element(context, element));
   if (type == "transform") return put(read_transform(context, document, xml));
   if (type == "point" || type == "vector") {
     const auto value = read_coordinates(element, std::nullopt, context.diagnostics);
@@ -107,8 +102,14 @@ void MitsubaContext::refuse_contents(const XmlDocument& document, pugi::xml_node
                       fmt::format("<{} .../>", node.name()));
 }
 
-std::string MitsubaContext::accepted_files(const XmlDocument& document, const std::string& name) const {
-  return norrsken::accepted_files(name, document.source().path(), search_paths);
+std::string MitsubaContext::find_file(const Literal& name) const {
+  std::string other;
+  std::string path = resolve_file(files, name.text, file_folders, &other);
+  if (path.empty())
+    diagnostics.error(name.location(), fmt::format("there is no file {}", name.quote(name.text)),
+                      accepted_files(name.text, file_folders));
+  if (!other.empty()) diagnostics.warning(name.location(), two_files_of_one_name(name.text, path, other));
+  return path;
 }
 
 const std::vector<std::string>& value_types() {

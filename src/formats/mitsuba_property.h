@@ -20,7 +20,11 @@ struct MitsubaContext {
   const FileSystem& files;
   Diagnostics& diagnostics;
   SceneParameters parameters;
+  /// Of `Description`: as in Mitsuba 3, the last <path> comes first and the folder of the scene behind them.
   std::vector<std::string> search_paths;
+  /// Where the file that is being read looks for includes, folders and spectra: its own <path>s and its own folder
+  /// come before those of the file that includes it.
+  std::vector<std::string> file_folders;
   MitsubaUpgrade upgrade;
 
   Element open(const XmlDocument& document, pugi::xml_node node, const AttributeRules& rules) {
@@ -28,8 +32,8 @@ struct MitsubaContext {
   }
   /// Complains if there is anything inside the element.
   void refuse_contents(const XmlDocument& document, pugi::xml_node node) const;
-  /// For a complaint about a file named in this document that there is not.
-  std::string accepted_files(const XmlDocument& document, const std::string& name) const;
+  /// The file that is meant in the file that is being read; empty after a complaint. Warns of two of one name.
+  std::string find_file(const Literal& name) const;
   /// Whether there are so many complaints that going on is of no use.
   bool gave_up() const { return diagnostics.error_count() >= 100; }
 };

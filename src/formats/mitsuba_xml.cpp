@@ -12,6 +12,7 @@
 #include "formats/mitsuba_property.h"
 #include "formats/mitsuba_references.h"
 #include "formats/mitsuba_values.h"
+#include "formats/other_files.h"
 #include "formats/xml_document.h"
 
 namespace norrsken {
@@ -39,11 +40,10 @@ class MitsubaReader {
   MitsubaReader(const FileSystem& files, const std::vector<std::pair<std::string, std::string>>& parameters,
                 Diagnostics& diagnostics)
       : diagnostics_(diagnostics),
-        context_{files, diagnostics, SceneParameters(parameters, diagnostics), {}, MitsubaUpgrade(diagnostics)},
+        context_{files, diagnostics, SceneParameters(parameters, diagnostics), {}, {}, MitsubaUpgrade(diagnostics)},
         references_(diagnostics) {}
 
   std::optional<Description> read(const std::string& path) {
-    // What an included file names may also lie beside the top file.
     context_.search_paths.push_back(folder_of(path));
     auto scene = std::make_shared<Node>();
     scene->kind = "scene";
@@ -89,6 +89,12 @@ class MitsubaReader {
     auto contents = read_counted(context_.files, path, error);
     if (!contents)
       return fail(named_at, fmt::format("cannot read {} {}: {}", what, quoted(path, 200), error), "an XML file");
+    if (const auto other = recognise_other_file(path, contents->bytes)) {
+      SourceLocation location;
+      location.file = path;
+      diagnostics_.named_at(path, named_at);
+      return fail(std::move(location), other->message, other->accepted);
+    }
     xml_bytes_ += contents->bytes.size();
     if (xml_bytes_ > kMaxXmlBytes) {
       SourceLocation location;
@@ -104,9 +110,12 @@ class MitsubaReader {
       return;
     }
     open_files_.push_back(path);
-    const SceneVersion outer = context_.upgrade.version;
+    const SceneVersion outer_version = context_.upgrade.version;
+    const std::vector<std::string> outer_folders = context_.file_folders;
+    context_.file_folders.insert(context_.file_folders.begin(), folder_of(path));
     read_root(*document, into, depth);
-    context_.upgrade.version = outer;
+    context_.upgrade.version = outer_version;
+    context_.file_folders = outer_folders;
     open_files_.pop_back();
   }
 
@@ -263,8 +272,7 @@ class MitsubaReader {
       diagnostics_.error(element.location, fmt::format("<path> in a <{}>", into.node.kind), "<path> in <scene>");
       return;
     }
-    const std::string folder =
-        resolve_file(context_.files, value.text, document.source().path(), context_.search_paths);
+    const std::string folder = resolve_file(context_.files, value.text, context_.file_folders);
     if (folder.empty()) {
       diagnostics_.error(value.location(), fmt::format("there is no folder {}", value.quote(value.text)),
                          "an existing folder, relative to this file");
@@ -272,7 +280,10 @@ class MitsubaReader {
       diagnostics_.error(value.location(), fmt::format("{} is not a folder", value.quote(value.text)),
                          "an existing folder, relative to this file");
     } else {
-      context_.search_paths.push_back(folder);
+      context_.file_folders.insert(context_.file_folders.begin(), folder);
+      // What an included file adds is for its own sake; the scene's are asked first.
+      auto& paths = context_.search_paths;
+      paths.insert(open_files_.size() == 1 ? paths.begin() : paths.end(), folder);
     }
   }
 
@@ -284,11 +295,11 @@ class MitsubaReader {
       return;
     }
     const Literal& filename = *element.find("filename");
-    const std::string path =
-        resolve_file(context_.files, filename.text, document.source().path(), context_.search_paths);
-    if (path.empty())
-      return fail(filename.location(), fmt::format("there is no file {}", filename.quote(filename.text)),
-                  context_.accepted_files(document, filename.text));
+    const std::string path = context_.find_file(filename);
+    if (path.empty()) {
+      complete_ = false;
+      return;
+    }
     const std::string key = normal_path(path);
     const auto is_same = [&key](const std::string& open) { return normal_path(open) == key; };
     if (const auto open = std::find_if(open_files_.begin(), open_files_.end(), is_same); open != open_files_.end()) {

@@ -221,7 +221,7 @@ TEST(MitsubaXml, IncludesAreSplicedIn) {
   EXPECT_EQ(std::get<double>(emitter.properties.at(0).value), 10);
   EXPECT_EQ(scene.scene->children[1].node->plugin, "conductor");
   EXPECT_EQ(scene.scene->children[2].node->children.at(0).node->plugin, "diffuse");
-  EXPECT_EQ(scene.search_paths, (std::vector<std::string>{"", "lib"})) << "the scene's own folder comes first";
+  EXPECT_EQ(scene.search_paths, (std::vector<std::string>{"lib", ""})) << "a <path> comes before the scene's own folder";
 }
 
 TEST(MitsubaXml, OneFileMayBeIncludedTwice) {
@@ -353,7 +353,7 @@ TEST(HostileXml, BytesThatAreNoTextAreNamed) {
   EXPECT_EQ(first_message("<scene version=\"3.0.0\"><string name=\"\xFF\" value=\"\"/></scene>"),
             "byte 0xff is not UTF-8");
   EXPECT_EQ(first_message(std::string("<scene version=\"3.0.0\">\0</scene>", 32)), "the file contains a NUL byte");
-  EXPECT_EQ(first_message(std::string("\xFF\xFE<\0s\0", 6)), "the file is UTF-16");
+  EXPECT_EQ(first_message(std::string("\xFF\xFE<\0s\0 ", 7)), "the file is UTF-16, but damaged or cut off");
 }
 
 TEST(HostileXml, EveryPrefixOfASceneIsReadOrRefused) {

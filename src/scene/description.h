@@ -73,7 +73,7 @@ struct SceneChange {
 /// A whole scene file with its includes, references and parameters resolved.
 struct Description {
   std::shared_ptr<const Node> scene;
-  /// Folders in which file names are looked up: beside the naming file is tried first (see `resolve_file`), then these.
+  /// Folders in which file names are looked up, in this order; after them beside the file that names them.
   std::vector<std::string> search_paths;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< those in use: `$name` and its final value
   MemoryReservation memory = {};                                ///< of all nodes

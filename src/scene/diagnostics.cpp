@@ -178,7 +178,14 @@ std::string to_text(const Diagnostic& diagnostic) {
     text += fmt::format("\n{:5} | {}", location.line, excerpt);
     if (location.column > 0) text += fmt::format("\n      | {}", mark);
   }
-  if (!diagnostic.accepted.empty()) text += "\naccepted: " + printable(diagnostic.accepted);
+  if (diagnostic.accepted.empty()) return text;
+  text += "\naccepted:";
+  // Lines that follow the first are indented: none of them can be taken for another diagnostic.
+  std::string_view indent = " ";
+  for (const TextPiece& line : split(diagnostic.accepted, "\n")) {
+    text += fmt::format("{}{}", indent, printable(line.text));
+    indent = "\n    ";
+  }
   return text;
 }
 
