@@ -237,7 +237,7 @@ std::shared_ptr<MemoryBudget> MemoryArguments::budget() const {
 }
 
 void SceneArguments::add_to(CLI::App& command) {
-  command.add_option("SCENE", scene, "Mitsuba 3 XML file, or a name that 'norrsken scenes' lists")
+  command.add_option("SCENE", scene, "Mitsuba XML file, or a name that 'norrsken scenes' lists")
       ->required()
       ->type_name("");
   command.add_option("-D", definitions, "Set the scene's $NAME, as in -Dlight=point; may be repeated")

@@ -68,7 +68,7 @@ struct BuiltinScene {
 /// An immutable scene, cheap to copy.
 class Scene {
  public:
-  /// Loads a Mitsuba 3 XML file, or a built-in scene by name. Complaints go to `diagnostics`; the result is empty
+  /// Loads a Mitsuba XML file, or a built-in scene by name. Complaints go to `diagnostics`; the result is empty
   /// if there was an error. They are sorted (see Diagnostics::sort).
   static std::optional<Scene> load(const std::string& path_or_name, const LoadOptions& options,
                                    Diagnostics& diagnostics);
