@@ -24,8 +24,9 @@ struct Diagnostic {
   /// A note is nothing to mend: what was understood otherwise than it is written, or has no effect.
   enum class Severity { error, warning, note };
   Severity severity = Severity::error;
-  std::string message;   ///< what was found, without a full stop: "unknown bsdf 'difuse'"
-  std::string accepted;  ///< what would have been accepted: "conductor, diffuse, twosided"; may be empty
+  std::string message;  ///< what was found, without a full stop: "unknown bsdf 'difuse'"
+  std::string
+      accepted;  ///< what would have been accepted: "conductor, diffuse, twosided"; may be empty, or have several lines
   SourceLocation location;
 };
 
@@ -58,6 +59,9 @@ class Diagnostics {
 
 /// "error", "warning" or "note".
 std::string_view name_of(Diagnostic::Severity severity);
+
+/// "room.xml:6:36", as far as it is known.
+std::string place_text(const SourceLocation& location);
 
 /// The form in which a person reads a diagnostic, without a trailing line break:
 ///

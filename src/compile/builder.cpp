@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "compile/plugins.h"
+#include "compile/scene_children.h"
 #include "compile/within_memory.h"
 #include "sampler/sampler_host.h"
 #include "scene/constant_spectrum.h"
@@ -32,7 +33,7 @@ std::uint64_t bytes_of(const Container& container) {
 void Builder::refuse_kinds_to_come(Parameters& parameters) {
   for (const Node::Child& child : parameters.node().children) {
     const std::string& kind = child.node->kind;
-    if (kind != "medium" && kind != "volume" && (kind != "texture" || parameters.node().kind == "scene")) continue;
+    if (kind != "medium" && kind != "volume" && kind != "texture") continue;
     complain_about_plugin(*child.node, {kind == "texture" ? "rgb, spectrum or float" : "a scene without " + kind},
                           diagnostics_);
     parameters.children(kind);  // said enough about those
@@ -282,14 +283,15 @@ void Builder::override_samples_per_pixel(const LoadOptions& options) {
 
 void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
   const auto sensors = scene.children("sensor");
-  if (sensors.empty()) {
+  const Node* chosen = choose_sensor(scene, options.sensor);
+  if (sensors.empty() && is_whole_)
     diagnostics_.error(scene.node().location, "the scene has no sensor", "<sensor type=\"perspective\">");
-    return;
+  for (std::size_t i = 0; sensors.size() > 1 && i < sensors.size(); ++i) {
+    const bool is_chosen = sensors[i]->node.get() == chosen;
+    describe(*sensors[i]->node, fmt::format("--sensor {}{}", i, is_chosen ? ", the one that is used" : ""));
   }
-  for (std::size_t i = 1; i < sensors.size(); ++i) {
-    diagnostics_.warning(sensors[i]->location, "only the scene's first sensor is used, this one is left aside");
-  }
-  const Node& node = *sensors[0]->node;
+  if (!chosen) return;
+  const Node& node = *chosen;
   const auto* plugin = find_plugin(sensor_plugins(), node, diagnostics_);
   if (!plugin) return;
   Parameters p = parameters(node);
@@ -316,6 +318,8 @@ void Builder::summarise() {
   const SceneTables& t = tables();
   SceneInfo& info = scene_.info;
   info.parameters = description_.parameters;
+  for (const SceneChange& change : description_.changes)
+    info.changes.push_back(place_text(change.location) + ": " + change.text);
   info.triangles = t.triangle_count();
   info.spheres = t.sphere_count();
   info.other_shapes = t.analytics.size();
@@ -340,8 +344,10 @@ void Builder::summarise() {
 
 LoadedScene Builder::build(const LoadOptions& options) {
   const Node& root = *description_.scene;
+  is_whole_ = !diagnostics_.has_errors();
+  const std::set<const Node*> inside = nodes_inside_of_others(root);
   Parameters p = parameters(root);
-  tables().integrator = compile_chosen(p.child("integrator"), "integrator", "path", options.integrator,
+  tables().integrator = compile_chosen(integrator_of_scene(p, inside), "integrator", "path", options.integrator,
                                        integrator_plugins(), scene_.info.integrator);
   compile_sensor(p, options);
   for (const Node::Child* child : p.children("bsdf")) bsdf(*child->node);
@@ -352,8 +358,8 @@ LoadedScene Builder::build(const LoadOptions& options) {
   }
   const auto shapes = p.children("shape");
   for (const Node::Child* child : shapes) compile_shape(*child->node);
-  for (const Node::Child* child : p.children("emitter")) compile_emitter(*child->node, kNone);
-  refuse_kinds_to_come(p);
+  for (const Node* emitter : emitters_of_scene(p, inside)) compile_emitter(*emitter, kNone);
+  take_definitions(p, inside);
   p.finish();
   if (!diagnostics_.has_errors()) {
     if (shapes.empty()) diagnostics_.warning(root.location, "the scene has no shape");

@@ -190,6 +190,7 @@ class Builder {
   std::map<std::tuple<TextureWord, double, double>, Texture> clamped_textures_;
   std::map<const Node*, const Node*> textures_by_uv_;
   std::optional<Material> default_material_;
+  bool is_whole_ = true;  ///< whether the scene was read without errors: what is missing is not in the file
   int bsdf_depth_ = 0;
   int integrator_depth_ = 0;
   double sampling_weight_ = 1;  ///< of the emitter that is being compiled

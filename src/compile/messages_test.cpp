@@ -159,6 +159,7 @@ TEST(Messages, SecondSensor) {
             R"(scene.xml:9:3: warning: only the scene's first sensor is used, this one is left aside
     9 |   <sensor type="perspective"/>
       |   ^~~~~~~
+accepted: --sensor 1 for this one
 )");
 }
 
@@ -273,10 +274,9 @@ TEST(Messages, KindsToCome) {
     9 |     <medium type="homogeneous"/>
       |                   ^~~~~~~~~~~
 accepted: a scene without medium
-scene.xml:11:17: error: volume 'gridvolume' is not supported yet
+scene.xml:11:3: warning: nothing refers to volume 'gridvolume', which has no effect by itself
    11 |   <volume type="gridvolume"/>
-      |                 ^~~~~~~~~~
-accepted: a scene without volume
+      |   ^~~~~~~
 )");
 }
 

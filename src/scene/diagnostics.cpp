@@ -100,14 +100,6 @@ std::pair<std::string, std::string> excerpt_and_mark(const SourceLocation& locat
   return {text, carets};
 }
 
-// "room.xml:6:36", as far as it is known.
-std::string place_text(const SourceLocation& location) {
-  std::string text = printable(location.file);
-  if (location.line > 0) text += fmt::format(":{}", location.line);
-  if (location.line > 0 && location.column > 0) text += fmt::format(":{}", location.column);
-  return text;
-}
-
 bool says_the_same(const Diagnostic& a, const Diagnostic& b) {
   const SourceLocation &x = a.location, &y = b.location;
   // A note is about the scene, not about one place of it.
@@ -184,6 +176,13 @@ std::string_view name_of(Diagnostic::Severity severity) {
   }
 }
 
+std::string place_text(const SourceLocation& location) {
+  std::string text = printable(location.file);
+  if (location.line > 0) text += fmt::format(":{}", location.line);
+  if (location.line > 0 && location.column > 0) text += fmt::format(":{}", location.column);
+  return text;
+}
+
 std::string to_text(const Diagnostic& diagnostic) {
   const SourceLocation& location = diagnostic.location;
   std::string text;
@@ -195,7 +194,14 @@ std::string to_text(const Diagnostic& diagnostic) {
     text += fmt::format("\n{:5} | {}", location.line, excerpt);
     if (location.column > 0) text += fmt::format("\n      | {}", mark);
   }
-  if (!diagnostic.accepted.empty()) text += "\naccepted: " + printable(diagnostic.accepted);
+  if (diagnostic.accepted.empty()) return text;
+  text += "\naccepted:";
+  // Lines that follow the first are indented: none of them can be taken for another diagnostic.
+  std::string_view indent = " ";
+  for (const TextPiece& line : split(diagnostic.accepted, "\n")) {
+    text += fmt::format("{}{}", indent, printable(line.text));
+    indent = "\n    ";
+  }
   return text;
 }
 

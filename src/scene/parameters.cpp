@@ -292,10 +292,14 @@ std::string Parameters::file(std::string_view name) {
   const Property* property = find_as<std::string>(name, "string");
   if (!property) return {};
   const std::string& value = std::get<std::string>(property->value);
-  const std::string path = resolve_file(files_, value, property->location.file, description_.search_paths);
+  std::vector<std::string> folders = description_.search_paths;
+  folders.push_back(folder_of(property->location.file));
+  std::string other;
+  const std::string path = resolve_file(files_, value, folders, &other);
+  if (!other.empty()) diagnostics_.warning(property->location, two_files_of_one_name(value, path, other));
   if (!path.empty()) return path;
   error(name, fmt::format("there is no file {}{}", quoted(value, 200), property->origin),
-        accepted_files(value, property->location.file, description_.search_paths));
+        accepted_files(value, folders));
   return {};
 }
 
@@ -375,7 +379,7 @@ void Parameters::finish() {
       continue;
     }
     diagnostics_.error(property.name_location,
-                       fmt::format("unused parameter {} of {}{}", quoted(property.name), name_of(node_),
+                       fmt::format("unused parameter {} of {}{}", quoted(property.file_name()), name_of(node_),
                                    did_you_mean(property.name, known)),
                        names.empty() ? none : join(names));
   }
