@@ -6,9 +6,11 @@
 //   to_world      transform (default identity), applied to the cylinder of those; it may scale along the axis otherwise
 //                 than across, but the cross-section must stay a circle at right angles to the axis
 //   flip_normals  boolean (default false): the normals point to the axis
-// u is the angle around the axis in turns, v goes from p0 to p1. A mirroring `to_world` turns the normals around, as in
-// Mitsuba.
-// Departures: Mitsuba warns of a `to_world` that makes no cylinder and renders one; here it is an error.
+// u is the angle around the axis in turns, v goes from p0 to p1. A mirroring `to_world` leaves the normals outwards, as in
+// Mitsuba 3.9.
+// Departures: Mitsuba warns of a `to_world` that makes no cylinder and renders one; here it is an error. A mirrored
+// cylinder that shines does so outwards for light sampling too; Mitsuba 3.9 samples light from its inside, whereas rays
+// find it on the outside, so that what stands around it is too dark there.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -65,10 +67,8 @@ std::optional<ShapeGeometry> compile_shape_cylinder(Parameters& p, Builder& buil
   }
   const double world_radius = glm::length(linear[0]), length = glm::length(linear[2]);
   builder.describe(p.node(), fmt::format("radius {:.6g}, length {:.6g}", world_radius, length));
-  const bool mirrored = glm::determinant(linear) < 0;
-  return place_analytic({AnalyticKind::cylinder, world_from_local, 2 * std::numbers::pi * world_radius * length,
-                         flip_normals != mirrored},
-                        p);
+  return place_analytic(
+      {AnalyticKind::cylinder, world_from_local, 2 * std::numbers::pi * world_radius * length, flip_normals}, p);
 }
 
 }  // namespace norrsken
