@@ -1,6 +1,7 @@
 // What plugins fill the scene's tables through: services that they share, and the common part of each kind.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -114,7 +115,10 @@ class Builder {
   /// Stores a model's parameters and returns the word that leads to them.
   MaterialWord add_material(BsdfKind kind, const ParameterBlock& parameters);
   /// Says that models look at texture coordinates or tangents, which surface points then have.
-  void need_uv() { tables().needs_uv = true; }
+  void need_uv() {
+    tables().needs_uv = true;
+    vary(Variation::over_uv);
+  }
   /// `light.prob` and the alias fields are filled in later. Returns the record's index.
   std::uint32_t add_light(const LightRecord& light, const LightPower& power);
   /// A light that surrounds the scene, of which there may be one.
@@ -156,6 +160,10 @@ class Builder {
   void compile_emitter(const Node& node, std::uint32_t shape);
   void choose_lights();
   void summarise();
+  /// What is being compiled varies so, at least.
+  void vary(Variation variation) { variation_ = std::max(variation_, variation); }
+  /// What the layers that are asked for show of the surfaces themselves.
+  Variation variation_of_layers() const;
 
   template <class Function>
   auto compile_chosen(const Node::Child* child, const char* kind, const char* fallback,
@@ -174,6 +182,7 @@ class Builder {
   std::map<const Node*, Material> materials_;
   std::map<const Node*, Texture> textures_;
   std::optional<Material> default_material_;
+  Variation variation_ = Variation::none;  ///< of what is being compiled
   int bsdf_depth_ = 0;
   int integrator_depth_ = 0;
   Array<LightPower> light_powers_;

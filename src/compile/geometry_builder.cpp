@@ -83,6 +83,7 @@ std::uint32_t GeometryBuilder::add(ShapeGeometry geometry, Material material) {
   record.smooth = !geometry.mesh.normals.empty();
   record.has_texcoords = !geometry.mesh.texcoords.empty();
   record.group = group_;
+  record.variation = material.variation;
   switch (of) {
     case Class::triangles:
       add_triangles(std::move(geometry.mesh), material);
