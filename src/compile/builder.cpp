@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "base/text.h"
 #include "compile/plugins.h"
@@ -28,6 +29,10 @@ std::uint64_t bytes_of(const Container& container) {
   return container.capacity() * sizeof(container[0]);
 }
 
+Variation variation_of(const Texture& texture) {
+  return texture_kind(texture.word) == TextureKind::mesh_attribute ? Variation::by_triangle : Variation::over_uv;
+}
+
 }  // namespace
 
 void Builder::refuse_kinds_to_come(Parameters& parameters) {
@@ -45,8 +50,12 @@ void Builder::describe(const Node& node, std::string detail) {
 }
 
 Material Builder::bsdf(const Node& node) {
-  if (const auto known = materials_.find(&node); known != materials_.end()) return known->second;
+  if (const auto known = materials_.find(&node); known != materials_.end()) {
+    vary(known->second.variation);
+    return known->second;
+  }
   Material material;
+  const Variation around = std::exchange(variation_, Variation::none);
   if (bsdf_depth_ == kMaxBsdfDepth) {
     diagnostics_.error(node.location, fmt::format("bsdfs are nested more than {} deep", kMaxBsdfDepth),
                        fmt::format("up to {} inside each other", kMaxBsdfDepth));
@@ -58,11 +67,16 @@ Material Builder::bsdf(const Node& node) {
     --bsdf_depth_;
     for (const Node::Child& child : node.children) {
       const auto inside = materials_.find(child.node.get());
-      if (inside != materials_.end()) material.choices = std::max(material.choices, inside->second.choices);
+      if (inside == materials_.end()) continue;
+      material.choices = std::max(material.choices, inside->second.choices);
+      material.maps = std::max(material.maps, inside->second.maps);
     }
     if (chooses_bsdf(node.plugin)) ++material.choices;
+    if (perturbs_bsdf(node.plugin)) ++material.maps;
     tables().material_choices = std::max(tables().material_choices, material.choices);
   }
+  material.variation = variation_;
+  vary(around);
   materials_.emplace(&node, material);
   return material;
 }
@@ -74,7 +88,10 @@ void add_to_uv(ParameterBlock& block, const glm::dmat4& transform) {
 }
 
 Texture Builder::texture(const Node& node) {
-  if (const auto known = textures_.find(&node); known != textures_.end()) return known->second;
+  if (const auto known = textures_.find(&node); known != textures_.end()) {
+    vary(variation_of(known->second));
+    return known->second;
+  }
   Texture texture;
   if (const auto* plugin = find_plugin(texture_plugins(), node, diagnostics_)) {
     Parameters p = parameters(node);
@@ -82,6 +99,7 @@ Texture Builder::texture(const Node& node) {
     p.finish();
   }
   textures_.emplace(&node, texture);
+  vary(variation_of(texture));
   return texture;
 }
 
@@ -342,6 +360,15 @@ void Builder::summarise() {
   if (const auto& budget = MemoryScope::current()) info.memory.loading = budget->peak();
 }
 
+Variation Builder::variation_of_layers() const {
+  Variation variation = Variation::none;
+  for (const FeatureLayer& layer : scene_.layers.features) {
+    if (layer.feature == kFeaturePrimitive) return Variation::by_triangle;
+    if ((1u << layer.feature & kUvFeatures) != 0) variation = Variation::over_uv;
+  }
+  return variation;
+}
+
 LoadedScene Builder::build(const LoadOptions& options) {
   const Node& root = *description_.scene;
   is_whole_ = !diagnostics_.has_errors();
@@ -366,6 +393,7 @@ LoadedScene Builder::build(const LoadOptions& options) {
     if (tables().lights.empty()) diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
     tell_what_is_beyond_view();
   }
+  for (ShapeRecord& shape : tables().shapes) shape.variation = std::max(shape.variation, variation_of_layers());
   geometry_.finish(scene_.info);
   attributes_.finish();
   choose_lights();

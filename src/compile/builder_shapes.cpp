@@ -116,7 +116,10 @@ void Builder::compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compil
       diagnostics_.error(emitter->location, "an emitter stands inside a shapegroup, whose instances cannot shine",
                          "emitters on shapes of the scene itself");
     } else if (emitter) {
+      variation_ = Variation::none;
       compile_emitter(*emitter->node, shape);
+      ShapeRecord& record = tables().shapes[shape];
+      record.variation = std::max(record.variation, variation_);
     }
   }
   refuse_kinds_to_come(p);

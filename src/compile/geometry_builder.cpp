@@ -83,6 +83,7 @@ std::uint32_t GeometryBuilder::add(ShapeGeometry geometry, Material material) {
   record.smooth = !geometry.mesh.normals.empty();
   record.has_texcoords = !geometry.mesh.texcoords.empty();
   record.group = group_;
+  record.variation = material.variation;
   Box box;
   switch (of) {
     case Class::triangles:

@@ -23,6 +23,8 @@ struct Material {
   MaterialWord front = make_material(BsdfKind::absorb, 0);
   MaterialWord back = make_material(BsdfKind::absorb, 0);
   std::uint32_t choices = 0;  ///< the most that a way from here to a model has
+  std::uint32_t maps = 0;     ///< the same of bump and normal maps
+  Variation variation = Variation::none;
 };
 
 /// A shape in world space. With `normals` the mesh is smooth, without it is flat.

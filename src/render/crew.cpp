@@ -119,7 +119,7 @@ Crew::Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, Work&
       cancelled_(cancelled),
       samples_done_(work.samples_done()) {
   feature_scene_.features = film_view_.feature_mask;
-  feature_scene_.needs_uv = scene.needs_uv || (film_view_.feature_mask & kUvFeatures) != 0;
+  feature_scene_.needs_uv = scene.needs_uv || (film_view_.feature_mask & (kUvFeatures | kNormalFeatures)) != 0;
 }
 
 Crew::~Crew() = default;

@@ -6,10 +6,12 @@
 //   to_world      transform (default identity), applied to the cylinder of those; it may scale along the axis otherwise
 //                 than across, but the cross-section must stay a circle at right angles to the axis
 //   flip_normals  boolean (default false): the normals point to the axis
-// u is the angle around the axis in turns, v goes from p0 to p1. A mirroring `to_world` turns the normals around, as in
-// Mitsuba.
-// Up to a percent that it makes the cross-section an ellipse by, or shears it, is left out.
-// Departures: Mitsuba warns of a `to_world` that makes no cylinder and renders one; here it is an error.
+// u is the angle around the axis in turns, v goes from p0 to p1. A mirroring `to_world` leaves the normals outwards, as in
+// Mitsuba 3.9.
+// Up to a percent that `to_world` makes the cross-section an ellipse by, or shears it, is left out.
+// Departures: Mitsuba warns of a `to_world` that makes no cylinder and renders one; here it is an error. A mirrored
+// cylinder that shines does so outwards for light sampling too; Mitsuba 3.9 samples light from its inside, whereas rays
+// find it on the outside, so that what stands around it is too dark there.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,11 +78,9 @@ std::optional<ShapeGeometry> compile_shape_cylinder(Parameters& p, Builder& buil
   const double world_radius = std::sqrt(glm::length(linear[0]) * glm::length(linear[1])),
                length = glm::length(linear[2]);
   builder.describe(p.node(), fmt::format("radius {:.6g}, length {:.6g}", world_radius, length));
-  const bool mirrored = glm::determinant(linear) < 0;
   straighten(world_from_local, world_radius);
-  return place_analytic({AnalyticKind::cylinder, world_from_local, 2 * std::numbers::pi * world_radius * length,
-                         flip_normals != mirrored},
-                        p);
+  return place_analytic(
+      {AnalyticKind::cylinder, world_from_local, 2 * std::numbers::pi * world_radius * length, flip_normals}, p);
 }
 
 }  // namespace norrsken

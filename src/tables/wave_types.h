@@ -43,6 +43,7 @@ struct SceneView {
   float center[3] = {};                   ///< of a sphere around all surfaces
   float radius = 0;
   bool any_smooth = false;
+  bool refracts = false;      ///< BSDFs that refract occur
   bool any_resolved = false;  ///< materials that are looked through at each hit occur
   /// Codes (see bsdf/resolved.h) that lead to every model behind a material; 1 if the ways are left to chance.
   std::uint32_t material_codes = 1;
@@ -138,17 +139,18 @@ enum RayField : std::uint32_t {
   kRayThroughputGreen,
   kRayThroughputBlue,
   kRayPdf,
+  kRayEta2,  ///< only written and read if the scene `refracts`
   kRaySlot,
   kRayFieldCount
 };
 /// A hit is its ray and where it ended.
-/// kHitBump is only written and read if the scene has `any_resolved`, kHitInstance if it has instances.
+/// kHitMaps are only written and read if the scene has `any_resolved`, kHitInstance if it has instances.
 enum HitField : std::uint32_t {
   kHitDistance = kRayFieldCount,
   kHitPrimitive,
   kHitMaterial,
-  kHitBump,
-  kHitInstance,
+  kHitMaps,  ///< kMostMaps fields
+  kHitInstance = kHitMaps + kMostMaps,
   kHitFieldCount
 };
 enum ShadowField : std::uint32_t {
