@@ -8,7 +8,7 @@ JOBS ?= $(shell nproc)
 SCENE ?= hexagon_room
 IMAGE ?= out/$(notdir $(basename $(SCENE))).png
 # The room as it is meant to be looked at: its default of as many shadow rays as samples, the report's, takes a minute.
-ROOM_ARGS := --spp 256 -Dshadow_rays=1
+ROOM_ARGS := --spp 256 -Dshadow_rays=1 --exposure 1.5
 ARGS ?= $(if $(filter hexagon_room,$(SCENE)),$(ROOM_ARGS))
 RELEASE := build/release
 
@@ -29,20 +29,25 @@ build:  ## install what is missing and build build/release/norrsken
 	cmake --preset release
 	cmake --build $(RELEASE) --target norrsken_program -j $(JOBS)
 
+# Two tiers. What is the same every time and takes a quarter of an hour at most is `test`; what takes minutes by itself, is
+# drawn anew each time, or races with the clock is `thorough`.
 .PHONY: test
-test: release-all  ## warnings as errors, a render, all tests, the checks, a peer's scenes, sanitizers, fuzzers
+test: tests  ## warnings as errors, a render, the tests, the checks, a peer's scenes: before every push
 	@mkdir -p out
 	$(RELEASE)/norrsken render hexagon_room -o out/hexagon_room.png $(ROOM_ARGS)
 	ctest --test-dir $(RELEASE) -j $(JOBS) --output-on-failure
 	scripts/check_conformance.sh $(RELEASE)/norrsken
 	scripts/check_format.sh
-	@$(MAKE) sanitize-quick fuzz-quick
 
 .PHONY: thorough
-thorough: test tidy sanitize  ## `test`, then clang-tidy and the sanitizers
+thorough: test  ## `test`, then mutants, calibration, kills, benchmarks, clang-tidy, sanitizers, fuzzing: two hours
+	cmake --preset release -DNORRSKEN_THOROUGH_TESTS=ON -DNORRSKEN_BUILD_BENCHMARKS=ON
+	cmake --build $(RELEASE) -j $(JOBS)
+	ctest --test-dir $(RELEASE) -j $(JOBS) --output-on-failure -L '^(mutants|calibration|kills|benchmarks)$$'
+	@$(MAKE) tidy sanitize fuzz-quick
 
 .PHONY: check
-check: release-all  ## the quick part of `test`: no slow tests
+check: tests  ## the quick part of `test`: no slow tests
 	ctest --test-dir $(RELEASE) -j $(JOBS) --output-on-failure -LE slow
 	scripts/check_format.sh
 
@@ -61,41 +66,21 @@ fuzz:  ## every fuzz target for ten minutes (FUZZ_SECONDS=600)
 fuzz-quick:  ## every fuzz target for one minute
 fuzz: FUZZ_SECONDS ?= 600
 fuzz-quick: FUZZ_SECONDS ?= 60
-# `make test` looks in about the same places each time, `make fuzz` elsewhere.
-fuzz-quick: export FUZZ_SEED ?= 1
 fuzz fuzz-quick:
 	@scripts/install_dependencies.sh test
 	cmake --preset fuzz -DNORRSKEN_WARNINGS_AS_ERRORS=ON
 	cmake --build --preset fuzz -j $(JOBS)
 	scripts/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
 
-# The fast part of the suite for `make test`: what reads files, and what has threads. The address and undefined-behaviour
-# sanitizers go by way of the fuzz build, which has them too: its libraries are built anyway.
-ASAN_TESTS := text_test raster_image_test texel_image_test parameters_test mitsuba_xml_test mitsuba_element_test \
-  xml_document_test obj_test ply_test serialized_test vol_test curves_test section_file_test image_file_test film_test \
-  work_plan_test cli_arguments_test repeatability_test traps_test path_trace_test hostile_files_test stopping_test
-TSAN_TESTS := work_plan_test repeatability_test stopping_test cli_interrupt_test
-
-.PHONY: sanitize-quick asan-ubsan-quick tsan-quick
-sanitize-quick: asan-ubsan-quick tsan-quick  ## the fast part of the suite under the sanitizers
-asan-ubsan-quick: PRESET := fuzz
-asan-ubsan-quick: TESTS := $(ASAN_TESTS)
-tsan-quick: PRESET := tsan
-tsan-quick: TESTS := $(TSAN_TESTS)
-asan-ubsan-quick tsan-quick:
+.PHONY: tests
+tests:
 	@scripts/install_dependencies.sh test
-	cmake --preset $(PRESET) -DNORRSKEN_WARNINGS_AS_ERRORS=ON -DNORRSKEN_BUILD_TESTS=ON -DNORRSKEN_ISAS=scalar
-	cmake --build build/$(PRESET) -j $(JOBS) --target $(TESTS)
-	ctest --preset $(PRESET) -j $(JOBS) --exclude-regex '_NOT_BUILT|^Fuzz[.]'
-
-.PHONY: release-all
-release-all:
-	@scripts/install_dependencies.sh test
-	cmake --preset release -DNORRSKEN_WARNINGS_AS_ERRORS=ON
+	cmake --preset release -DNORRSKEN_WARNINGS_AS_ERRORS=ON -DNORRSKEN_THOROUGH_TESTS=OFF -DNORRSKEN_BUILD_BENCHMARKS=OFF
 	cmake --build $(RELEASE) -j $(JOBS)
 
 .PHONY: bench
 bench: build  ## measure the hexagon room and every Google Benchmark
+	cmake --preset release -DNORRSKEN_BUILD_BENCHMARKS=ON
 	cmake --build $(RELEASE) -j $(JOBS)
 	$(RELEASE)/norrsken bench hexagon_room -Dshadow_rays=1 -Dbounces=3 --sampler independent
 	for program in $(RELEASE)/benchmarks/*_benchmark; do "$$program"; done
@@ -106,8 +91,10 @@ format:  ## rewrite the sources in the project's format
 	scripts/check_format.sh --fix
 
 .PHONY: tidy
-tidy: release-all  ## clang-tidy over every file
-	scripts/check_tidy.py --build $(RELEASE) -j $(JOBS) --all
+tidy:  ## clang-tidy over every file
+	@scripts/install_dependencies.sh test
+	cmake --preset tidy
+	scripts/check_tidy.py --build build/tidy -j $(JOBS) --all
 
 .PHONY: clean
 clean:  ## remove what was built and rendered

@@ -4,7 +4,8 @@
 find_program(NORRSKEN_CCACHE ccache)
 mark_as_advanced(NORRSKEN_CCACHE)
 if(NORRSKEN_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${NORRSKEN_CCACHE}")
+  # It gives up on precompiled headers unless it is told that nobody asks them for a time or a macro.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${NORRSKEN_CCACHE})
 endif()
 
 add_library(norrsken_options INTERFACE)
@@ -37,16 +38,41 @@ function(norrsken_layer name)
   set_property(GLOBAL APPEND PROPERTY NORRSKEN_LAYERS norrsken_${name})
 endfunction()
 
-# norrsken_test(NAME SOURCES ... LINK ... [LABELS slow]): a GoogleTest program, one ctest case per test. Programs whose
-# tests take longer than a few seconds are labelled `slow`: `make check` and the sanitizers leave them out.
+# What takes minutes, or asks the machine's clock: built with NORRSKEN_THOROUGH_TESTS only.
+set(NORRSKEN_THOROUGH_LABELS mutants calibration kills benchmarks)
+
+# GoogleTest's headers take longer to read than most tests take to compile: they are read once for all tests.
+set(norrsken_test_options $<$<CONFIG:Release>:-O1>)
+if(NORRSKEN_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/generated/precompiled_tests.cpp CONTENT "" @ONLY)
+  add_library(norrsken_precompiled_tests OBJECT ${CMAKE_CURRENT_BINARY_DIR}/generated/precompiled_tests.cpp)
+  target_link_libraries(norrsken_precompiled_tests PRIVATE norrsken_options GTest::gtest GTest::gmock)
+  target_compile_options(norrsken_precompiled_tests PRIVATE ${norrsken_test_options})
+  target_precompile_headers(norrsken_precompiled_tests PRIVATE
+    <gmock/gmock.h> <gtest/gtest.h> <algorithm> <cmath> <filesystem> <map> <string> <vector>)
+endif()
+
+# norrsken_test(NAME [COMPUTES] SOURCES ... LINK ... [LABELS ...]): a GoogleTest program, one ctest case per test. COMPUTES:
+# the time is spent in its own code (kernels of one lane, an oracle), which is optimised as the product is. The label `slow`
+# says that its tests take longer than a few seconds; those of NORRSKEN_THOROUGH_LABELS say what else they are.
 function(norrsken_test name)
+  cmake_parse_arguments(ARG "COMPUTES" "" "SOURCES;LINK;LABELS" ${ARGN})
   if(NOT NORRSKEN_BUILD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS" ${ARGN})
+  foreach(label IN LISTS ARG_LABELS)
+    if(label IN_LIST NORRSKEN_THOROUGH_LABELS AND NOT NORRSKEN_THOROUGH_TESTS)
+      return()
+    endif()
+  endforeach()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} norrsken_options GTest::gtest_main GTest::gmock)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  if(NOT ARG_COMPUTES)
+    target_compile_options(${name} PRIVATE ${norrsken_test_options})
+    target_precompile_headers(${name} REUSE_FROM norrsken_precompiled_tests)
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 900 LABELS "${ARG_LABELS}")
 endfunction()

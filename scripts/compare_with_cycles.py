@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
 """Measures Norrsken against Blender's Cycles on the hexagon room: same machine, two threads, in turn.
 
-    scripts/compare_with_cycles.py [--isa avx512 avx2] [--spp 64] [--runs 5] [--json FILE] [--install]
+    scripts/compare_with_cycles.py [--isa avx512 avx2] [--spp 64] [--runs 5] [--json FILE] [--install | --bpy PYTHON]
 
-Both trace 3 bounces with independent samples; Norrsken one shadow ray per hit. A table goes to standard output: the
-median over the runs of million camera samples a second, the least and the greatest, and how many times Cycles' median
-that is. Blender 3.4 comes from Debian's package `blender`, which --install installs.
+Both scatter a path by 3 surfaces at most (what Cycles calls 2 bounces) with independent samples; Norrsken with one shadow
+ray per hit. Cycles runs twice, with a lamp that shines downwards, as Norrsken's does, and with one that shines both ways,
+which spares it a shader for each sample of the lamp but shows another image. A table goes to standard output: the median
+over the runs of million camera samples per processor second, the least and the greatest, and how many times the median of
+Cycles with the same lamp, and with the simpler one, that is. Blender 3.4 comes from Debian's package `blender`, which
+--install installs; with --bpy a Python that has the package `bpy` takes its place.
 """
 import argparse
 import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import statistics
 import subprocess
@@ -19,7 +23,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-BOUNCES, THREADS = 3, 2
+BOUNCES, THREADS, SIZE = 3, 2, 800
 
 
 def arguments():
@@ -32,6 +36,7 @@ def arguments():
     parser.add_argument("--runs", type=int, default=5, help="of each, in turn; default %(default)s")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="write every figure there")
     parser.add_argument("--install", action="store_true", help="apt-get install blender if it is missing")
+    parser.add_argument("--bpy", type=pathlib.Path, metavar="PYTHON", help="a Python with bpy, in place of blender")
     return parser.parse_args()
 
 
@@ -49,22 +54,27 @@ def output_of(command):
     return result.stdout
 
 
-def cycles_speed(options):
-    """Million camera samples a second of one rendering by Cycles, by its script's own account."""
+def cycles_run(options, *lamp):
+    """Million camera samples per processor second of one rendering by Cycles, and its version, by its script's account."""
+    blender = [options.bpy] if options.bpy else ["blender", "-b", "-noaudio", "--python"]
     with tempfile.TemporaryDirectory() as folder:
-        image = pathlib.Path(folder, "room.png")
-        output = output_of(["blender", "-b", "-noaudio", "--python", options.peer, "--", options.spp, BOUNCES, image])
-    match = re.search(r"([\d.]+) Msamples/s", output)
+        output = output_of([*blender, options.peer, *([] if options.bpy else ["--"]), *lamp, "--threads", THREADS,
+                            options.spp, BOUNCES, pathlib.Path(folder, "room.png")])
+    match = re.search(r"cycles ([\d.]+).* ([\d.]+) Msamples per processor second", output)
     if not match:  # Blender exits with 0 even where its script failed
-        sys.exit(f"{options.peer} printed no Msamples/s:\n{output[-2000:]}")
-    return float(match[1])
+        sys.exit(f"{options.peer} printed no Msamples per processor second:\n{output[-2000:]}")
+    return float(match[2]), match[1]
 
 
 def norrsken_run(options, isa):
-    """What `norrsken bench` says of one rendering."""
-    return json.loads(output_of([
+    """Million camera samples per processor second of one rendering, its start included, and what the program says of it."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    result = json.loads(output_of([
         options.norrsken, "bench", "hexagon_room", "-Dshadow_rays=1", f"-Dbounces={BOUNCES}", "--sampler",
         "independent", "--spp", options.spp, "--threads", THREADS, "--isa", isa, "--repeat", 1]))
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return SIZE * SIZE * options.spp / seconds / 1e6, result
 
 
 def spread(values):
@@ -73,32 +83,34 @@ def spread(values):
 
 def main():
     options = arguments()
-    if not shutil.which("blender"):
+    if not options.bpy and not shutil.which("blender"):
         if not options.install:
-            sys.exit("blender is not installed: apt-get install blender, or run this with --install")
+            sys.exit("blender is not installed: apt-get install blender, run this with --install, or see --bpy")
         install_blender()
 
-    speeds = {"cycles": []}
+    speeds = {"cycles": [], "cycles, simple lamp": []}
     lanes = {}
     for run in range(options.runs):
         print(f"run {run + 1} of {options.runs}", file=sys.stderr)
-        speeds["cycles"].append(cycles_speed(options))
+        for name, lamp in zip(list(speeds)[:2], ([], ["--two-sided-lamp"])):
+            speed, version = cycles_run(options, *lamp)
+            speeds[name].append(speed)
         for isa in options.isa:
-            result = norrsken_run(options, isa)
+            speed, result = norrsken_run(options, isa)
             name = f"norrsken {result['isa']}"
             lanes[name] = result["lanes"]
-            speeds.setdefault(name, []).append(result["msamples_per_second"]["median"])
+            speeds.setdefault(name, []).append(speed)
 
-    version = output_of(["blender", "--version"]).splitlines()[0]
-    base = statistics.median(speeds["cycles"])
-    report = {"blender": version, "spp": options.spp, "bounces": BOUNCES, "threads": THREADS, "renderers": {}}
-    print(f"hexagon room, {options.spp} spp, {BOUNCES} bounces, {THREADS} threads, {options.runs} runs in turn, {version}")
-    print(f"{'renderer':<20} {'lanes':>5} {'Msamples/s':>10} {'min':>8} {'max':>8} {'x Cycles':>8}")
+    bases = [statistics.median(speeds[name]) for name in list(speeds)[:2]]
+    report = {"cycles": version, "spp": options.spp, "bounces": BOUNCES, "threads": THREADS, "renderers": {}}
+    print(f"hexagon room, {options.spp} spp, {BOUNCES} bounces, {THREADS} threads, {options.runs} runs in turn, "
+          f"Cycles {version}; million camera samples per processor second")
+    print(f"{'renderer':<20} {'lanes':>5} {'median':>8} {'min':>8} {'max':>8} {'x Cycles':>8} {'x simple lamp':>14}")
     for name, values in speeds.items():
-        figures = spread(values) | {"ratio": statistics.median(values) / base}
+        figures = spread(values) | {"ratios": [statistics.median(values) / base for base in bases]}
         report["renderers"][name] = figures
-        print(f"{name:<20} {lanes.get(name, ''):>5} {figures['median']:>10.3f} {figures['min']:>8.3f} "
-              f"{figures['max']:>8.3f} {figures['ratio']:>8.1f}")
+        print(f"{name:<20} {lanes.get(name, ''):>5} {figures['median']:>8.3f} {figures['min']:>8.3f} "
+              f"{figures['max']:>8.3f} {figures['ratios'][0]:>8.1f} {figures['ratios'][1]:>14.1f}")
     if options.json:
         options.json.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
 

@@ -31,7 +31,7 @@ FAMILIES = [
     ("Samplers", "sampler", "sampler", ["plugins.def"], "sampler_host.h"),
     ("BSDFs", "bsdf", "bsdf", ["list.def", "resolved.def", "adapters.def"], None),
     ("Textures", "texture", "texture", ["plugins.def", "list.def"], None),
-    ("Emitters", "light", "emitter", ["plugins.def"], None),
+    ("Emitters", "light", "emitter", ["plugins.def"], "light_host.h"),
     ("Shapes", "shape", "shape", ["plugins.def"], "mesh_host.h"),
 ]
 
@@ -152,11 +152,23 @@ def plugin_section(folder, element, name):
     return "\n".join(out)
 
 
+def without_effect():
+    """The table of src/scene/base_parameters.cpp."""
+    source = (ROOT / "src/scene/base_parameters.cpp").read_text()
+    rows = re.findall(r'\{"(\w+)", "(\w*)", "(\w+)", Type::\w+, "(.*?)"\}', source)
+    out = ["", "## Without effect", "",
+           "These are parameters that Mitsuba's plugins take and that mean nothing here. They are taken, and named in a note.",
+           "", "| of | parameter | instead |", "|---|---|---|"]
+    return out + [f"| {plugin or 'every ' + kind} | `{name}` | {instead} |" for kind, plugin, name, instead in rows]
+
+
 def page():
     out = ["# Scene files: every plugin and its parameters", "",
            "Norrsken reads the XML format of Mitsuba 3. This page is written by `scripts/make_scene_docs.py` from the header "
            "blocks of the sources; change it there. Lengths are in scene units, angles in degrees, colours linear sRGB; "
-           "\"color\" stands for `rgb`, `spectrum` or a grey `float`. A parameter that nobody asks for is an error."]
+           "\"color\" stands for `rgb`, `spectrum` or a grey `float`. A parameter that nobody asks for is an "
+           "error, but for [those](#without-effect) that the format's base classes take. A number that may be a texture may "
+           "be a color too, whose mean counts."]
     families = [(heading, folder, element, plugin_names(folder, lists), common)
                 for heading, folder, element, lists, common in FAMILIES]
     out += [""] + [f"- **{heading}**: " + ", ".join(f"[{n}](#{n})" for n in names)
@@ -170,6 +182,7 @@ def page():
             out += ["", cell(block[0]), render_block(block[1:]).strip("\n") and render_block(block[1:])]
         for name in names:
             out += ["", plugin_section(folder, element, name)]
+    out += without_effect()
     return re.sub(r"\n{3,}", "\n\n", "\n".join(out)) + "\n"
 
 

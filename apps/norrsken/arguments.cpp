@@ -237,7 +237,7 @@ std::shared_ptr<MemoryBudget> MemoryArguments::budget() const {
 }
 
 void SceneArguments::add_to(CLI::App& command) {
-  command.add_option("SCENE", scene, "Mitsuba 3 XML file, or a name that 'norrsken scenes' lists")
+  command.add_option("SCENE", scene, "Mitsuba XML file, or a name that 'norrsken scenes' lists")
       ->required()
       ->type_name("");
   command.add_option("-D", definitions, "Set the scene's $NAME, as in -Dlight=point; may be repeated")
@@ -245,6 +245,10 @@ void SceneArguments::add_to(CLI::App& command) {
       ->take_all()
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
+  command
+      .add_option("--sensor", sensor,
+                  "Which of the scene's sensors: its number from 0 (default) in the file's order, or its id")
+      ->type_name("N|ID");
   command.add_option("--integrator", integrator, "Integrator in place of the scene's: path, direct, whitted, ptracer")
       ->type_name("NAME");
   command
@@ -263,6 +267,7 @@ void SceneArguments::add_to(CLI::App& command) {
 LoadOptions SceneArguments::load_options() const {
   LoadOptions options;
   for (const std::string& text : definitions) options.parameters.push_back(parse_definition(text));
+  options.sensor = sensor;
   options.integrator = integrator;
   options.sampler = sampler;
   if (!size.empty()) std::tie(options.width, options.height) = parse_size(size);

@@ -59,10 +59,10 @@ struct MemoryArguments {
   std::shared_ptr<MemoryBudget> budget() const;
 };
 
-/// The scene and what may be said over its head: SCENE, -D, --integrator, --sampler, --size, --spp; --max-memory.
+/// The scene and what may be said over its head: SCENE, -D, --sensor, --integrator, --sampler, --size, --spp; --max-memory.
 struct SceneArguments {
   std::string scene, size;
-  std::optional<std::string> integrator, sampler;
+  std::optional<std::string> sensor, integrator, sampler;
   std::vector<std::string> definitions;
   MemoryArguments memory;
   int spp = 0;  ///< 0: the scene's

@@ -70,7 +70,8 @@ void print_diagnostics(const Diagnostics& diagnostics, bool with_warnings) {
     std::string text = to_text(diagnostic);
     // A complaint about the command line or a default stands in no file: say who speaks.
     if (diagnostic.location.file.empty()) text.insert(0, "norrsken: ");
-    write_stderr(emphasize(text + '\n', is_error ? "error:" : "warning:", is_error ? kRed : kYellow));
+    const std::string word = std::string(name_of(diagnostic.severity)) + ':';
+    write_stderr(emphasize(text + '\n', word, is_error ? kRed : kYellow));
   }
 }
 

@@ -48,6 +48,7 @@ void print_as_json(const std::string& scene, const SceneInfo& info) {
                                      {"loading_peak_bytes", info.memory.loading},
                                      {"embree_estimate_bytes", info.memory.embree}}},
                                    {"parameters", parameters},
+                                   {"changes", info.changes},
                                    {"items", items}};
   if (!info.accelerator.empty()) object["accelerator"] = info.accelerator;
   print_json(object);
@@ -82,6 +83,10 @@ void print_as_text(const std::string& scene, const SceneInfo& info) {
   if (!info.parameters.empty()) {
     print_line("parameters (-DNAME=VALUE)");
     for (const auto& [name, value] : info.parameters) row(name, value);
+  }
+  if (!info.changes.empty()) {
+    print_line("upgraded from an older version of the format");
+    for (const std::string& change : info.changes) print_line("  " + change);
   }
   if (info.items.empty()) return;
   print_line("contents");

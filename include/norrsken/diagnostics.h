@@ -21,20 +21,23 @@ struct SourceLocation {
 };
 
 struct Diagnostic {
-  enum class Severity { error, warning };
+  /// A note is nothing to mend: what was understood otherwise than it is written, or has no effect.
+  enum class Severity { error, warning, note };
   Severity severity = Severity::error;
-  std::string message;   ///< what was found, without a full stop: "unknown bsdf 'difuse'"
-  std::string accepted;  ///< what would have been accepted: "conductor, diffuse, twosided"; may be empty
+  std::string message;  ///< what was found, without a full stop: "unknown bsdf 'difuse'"
+  std::string
+      accepted;  ///< what would have been accepted: "conductor, diffuse, twosided"; may be empty, or have several lines
   SourceLocation location;
 };
 
 /// Collects complaints, so that one run tells as many of them as it can. Never prints. Keeps the first hundred errors
-/// and the first hundred warnings and counts the rest: a broken file must not fill the memory with its complaints. What
-/// is said again of the same place is kept and counted once.
+/// and as many warnings and notes and counts the rest: a broken file must not fill the memory with its complaints. What
+/// is said again of the same place, and a note that is said again anywhere, is kept and counted once.
 class Diagnostics {
  public:
   void error(SourceLocation location, std::string message, std::string accepted = {});
   void warning(SourceLocation location, std::string message, std::string accepted = {});
+  void note(SourceLocation location, std::string message, std::string accepted = {});
 
   /// From now on, complaints about `file` end with "(named at room.xml:6:36)".
   void named_at(const std::string& file, const SourceLocation& place);
@@ -51,8 +54,14 @@ class Diagnostics {
 
   std::vector<Diagnostic> all_;
   std::map<std::string, std::string> named_at_;  ///< "room.xml:6:36" by file
-  int error_count_ = 0, warning_count_ = 0;
+  int error_count_ = 0, warning_count_ = 0, note_count_ = 0;
 };
+
+/// "error", "warning" or "note".
+std::string_view name_of(Diagnostic::Severity severity);
+
+/// "room.xml:6:36", as far as it is known.
+std::string place_text(const SourceLocation& location);
 
 /// The form in which a person reads a diagnostic, without a trailing line break:
 ///

@@ -21,6 +21,7 @@ struct LoadOptions {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< -Dname=value, in order, later ones win
   std::optional<std::string> integrator = {};                   ///< plugin name in place of the file's
   std::optional<std::string> sampler = {};
+  std::optional<std::string> sensor = {};  ///< its id, or its number from 0; empty: the first
   std::optional<int> width = {}, height = {};
   /// In place of the scene's; a $spp parameter that `parameters` does not set follows.
   std::optional<int> samples_per_pixel = {};
@@ -40,6 +41,8 @@ struct SceneInfo {
   };
   std::vector<Item> items;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< the `$parameters` in use and their values
+  /// What a scene of an old version says in other words, each with its place: "a.xml:4:13: 'maxDepth' is 'max_depth'".
+  std::vector<std::string> changes;
   /// Surfaces, those of groups counted once, whatever their number of instances.
   std::uint64_t triangles = 0, spheres = 0, other_shapes = 0;
   std::uint64_t instances = 0, lights = 0;
@@ -65,7 +68,7 @@ struct BuiltinScene {
 /// An immutable scene, cheap to copy.
 class Scene {
  public:
-  /// Loads a Mitsuba 3 XML file, or a built-in scene by name. Complaints go to `diagnostics`; the result is empty
+  /// Loads a Mitsuba XML file, or a built-in scene by name. Complaints go to `diagnostics`; the result is empty
   /// if there was an error. They are sorted (see Diagnostics::sort).
   static std::optional<Scene> load(const std::string& path_or_name, const LoadOptions& options,
                                    Diagnostics& diagnostics);

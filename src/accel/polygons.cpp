@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -41,10 +42,43 @@ Triangle make_triangle(const SceneTables& scene, std::uint32_t i) {
   return t;
 }
 
+glm::dvec2 texcoord(const SceneTables& scene, std::uint32_t vertex) {
+  const float* c = scene.texcoords.data() + std::size_t{2} * vertex;
+  return {c[0], c[1]};
+}
+
+/// Whether the texture coordinates of b's corners are those that a's, continued, have there.
+bool same_texcoords(const SceneTables& scene, std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t *va = &scene.triangle_vertices[3 * a], *vb = &scene.triangle_vertices[3 * b];
+  const glm::dvec3 origin = vertex_position(scene, va[0]);
+  const glm::dvec3 e1 = vertex_position(scene, va[1]) - origin, e2 = vertex_position(scene, va[2]) - origin;
+  const glm::dvec2 c = texcoord(scene, va[0]), d1 = texcoord(scene, va[1]) - c, d2 = texcoord(scene, va[2]) - c;
+  const double a11 = glm::dot(e1, e1), a12 = glm::dot(e1, e2), a22 = glm::dot(e2, e2), det = a11 * a22 - a12 * a12;
+  return std::all_of(vb, vb + 3, [&](std::uint32_t vertex) {
+    const glm::dvec3 p = vertex_position(scene, vertex), q = p - origin;
+    const double q1 = glm::dot(q, e1), q2 = glm::dot(q, e2);
+    const glm::dvec2 expected = c + d1 * ((a22 * q1 - a12 * q2) / det) + d2 * ((a11 * q2 - a12 * q1) / det);
+    const glm::dvec2 gap = glm::abs(expected - texcoord(scene, vertex));
+    // What rounding of the positions may come to in them: they change by d1 over e1.
+    const double slope = std::max(glm::length(d1) / std::sqrt(a11), glm::length(d2) / std::sqrt(a22));
+    return std::max(gap.x, gap.y) <= kCoplanar * (slope * (magnitude(p) + magnitude(q)) + glm::length(expected));
+  });
+}
+
 bool same_surface(const SceneTables& scene, std::uint32_t a, std::uint32_t b) {
   const SurfaceRecord &s = scene.surfaces[a], &t = scene.surfaces[b];
-  return s.shape == t.shape && s.material_front == t.material_front && s.material_back == t.material_back &&
-         scene.light_of(a) == scene.light_of(b) && scene.shapes[s.shape].smooth == 0;
+  if (s.shape != t.shape || s.material_front != t.material_front || s.material_back != t.material_back) return false;
+  const ShapeRecord& shape = scene.shapes[s.shape];
+  if (shape.smooth != 0 || scene.light_of(a) != scene.light_of(b)) return false;
+  switch (shape.variation) {
+    case Variation::none:
+      return true;
+    case Variation::over_uv:  // without texture coordinates they are each triangle's barycentric ones
+      return shape.has_texcoords != 0 && same_texcoords(scene, a, b);
+    case Variation::by_triangle:
+      break;
+  }
+  return false;
 }
 
 bool in_plane(const glm::dvec3& normal, double offset, const glm::dvec3& p) {

@@ -17,8 +17,8 @@ struct ConvexPolygon {
   std::uint32_t primitive = 0;  ///< the first triangle that it is made of
 };
 
-/// The scene's triangles, merged where the result is convex and the surface is one (same shape, material and light,
-/// flat shading).
+/// The scene's triangles, merged where the result is convex and the surface is one: same shape, material and light, flat
+/// shading, and what varies over it is one affine map of the polygon.
 std::vector<ConvexPolygon> merge_triangles(const SceneTables& scene);
 
 /// Length scale of the scene: the largest absolute coordinate of its bounds, at least the smallest positive double.

@@ -6,8 +6,9 @@
 //   use_shadowing_function  boolean (default true): softens the edge of the light on bumps
 // Children
 //   texture                 one bitmap, of any name: heights
-//   bsdf                    one: what is bumpy
-// Stored, for each side: the word inside, flags, scale, the texture's word.
+//   bsdf                    one: what is bumpy; up to 4 bump and normal maps may stand inside each other, each in the
+//                           frame that the one around it makes
+// Stored, for each side: the words inside, flags, scale, the texture's word.
 #include <fmt/format.h>
 
 #include "bsdf/resolved_host.h"

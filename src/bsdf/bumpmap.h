@@ -4,20 +4,19 @@
 // Measure     that of the BSDF inside
 // Source      Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978: the derivatives of the moved surface without the
 //             term in the change of the normal
-// Departures  none
+// Departures  a map inside of a bump map works in the surface's own frame; in Mitsuba 3.9 the tangents there are mixed of
+//             world and local directions, which is the same only where the surface's frame is the world's
 #pragma once
 
 #include "bsdf/resolved.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Stored: the word inside, flags, scale, the texture's word.
+/// Stored: the words inside, flags, scale, the texture's word.
 struct BumpMap {
-  static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Choice&) { return bits(p.number(0)); }
-
   static NORRSKEN_INLINE Vec3f normal(const ParameterReader& p, const Unperturbed& s) {
-    const Vec2f slope = Bitmap::gradient(p.scene, bits(p.number(3)) & UInt(kTextureOffsetMask), p.point, p.active);
-    const Float scale = p.number(2);
+    const Vec2f slope = Bitmap::gradient(p.scene, bits(p.number(4)) & UInt(kTextureOffsetMask), p.point, p.active);
+    const Float scale = p.number(3);
     const auto moved = [&](const Vec3f& tangent, Float height) {
       return fma(s.frame.n, fms(height, scale, dot(s.frame.n, tangent)), tangent);
     };

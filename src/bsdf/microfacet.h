@@ -67,14 +67,24 @@ struct Microfacet {
 
   /// A normal as often as its facets are seen from `wo`; wo.z > 0.
   NORRSKEN_INLINE Vec3f sample_visible(const Vec3f& wo, Vec2f u) const {
-    const Vec3f stretched{wo.x * alpha_u, wo.y * alpha_v, wo.z};
+    const Vec3f view = stretched(wo);
     Vec3f m{Float(0.0f), Float(0.0f), Float(1.0f)};
-    if (any(ggx)) m = sample_visible_ggx(stretched, u);
-    if (any(!ggx)) m = select(ggx, m, sample_visible_beckmann(stretched, u));
-    return normalize(Vec3f{m.x * alpha_u, m.y * alpha_v, max(m.z, Float(1e-7f))});
+    if (any(ggx)) m = sample_cap(view, sin_cos_turns(u.x), u.y);
+    if (any(!ggx)) m = select(ggx, m, sample_visible_beckmann(view, u));
+    return stretched_back(m);
+  }
+  /// The same of GGX alone, for an azimuth that is known.
+  NORRSKEN_INLINE Vec3f sample_visible_ggx(const Vec3f& wo, const SinCos& azimuth, Float u) const {
+    return stretched_back(sample_cap(stretched(wo), azimuth, u));
   }
 
  private:
+  /// To roughness 1, and normals back from there.
+  NORRSKEN_INLINE Vec3f stretched(const Vec3f& v) const { return {v.x * alpha_u, v.y * alpha_v, v.z}; }
+  NORRSKEN_INLINE Vec3f stretched_back(const Vec3f& m) const {
+    return normalize(Vec3f{m.x * alpha_u, m.y * alpha_v, max(m.z, Float(1e-7f))});
+  }
+
   /// Squared tangent of v's angle to the normal after the stretch that makes both roughnesses one.
   NORRSKEN_INLINE Float stretched_tan2(const Vec3f& v) const {
     const Float x = v.x * alpha_u, y = v.y * alpha_v;
@@ -89,11 +99,10 @@ struct Microfacet {
 
   /// Roughness 1: a point of the hemisphere's part that `wo` sees is halfway to a point of a spherical cap.
   /// Source: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023, listing 3.
-  static NORRSKEN_INLINE Vec3f sample_visible_ggx(const Vec3f& stretched, Vec2f u) {
+  static NORRSKEN_INLINE Vec3f sample_cap(const Vec3f& stretched, const SinCos& phi, Float u) {
     const Vec3f wo = normalize(stretched);
-    const Float z = fma(Float(1.0f) - u.y, Float(1.0f) + wo.z, -wo.z);
+    const Float z = fma(Float(1.0f) - u, Float(1.0f) + wo.z, -wo.z);
     const Float radius = sqrt(max(fnma(z, z, Float(1.0f)), Float(0.0f)));
-    const SinCos phi = sin_cos_turns(u.x);
     return {fma(radius, phi.cos, wo.x), fma(radius, phi.sin, wo.y), z + wo.z};
   }
 

@@ -6,8 +6,9 @@
 //   flip_invalid_normals    boolean (default true): normals that turn away from the viewer are folded back
 //   use_shadowing_function  boolean (default true): softens the edge of the light on bumps
 // Children
-//   bsdf                    one: what has these normals
-// Stored, for each side: the word inside, flags, the normal map (4 floats).
+//   bsdf                    one: what has these normals; up to 4 bump and normal maps may stand inside each other, each in the
+//                           frame that the one around it makes
+// Stored, for each side: the words inside, flags, the normal map (4 floats).
 #include <limits>
 
 #include "bsdf/resolved_host.h"

@@ -11,12 +11,10 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Stored: the word inside, flags, the normal map (color).
+/// Stored: the words inside, flags, the normal map (color).
 struct NormalMap {
-  static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Choice&) { return bits(p.number(0)); }
-
   static NORRSKEN_INLINE Vec3f normal(const ParameterReader& p, const Unperturbed&) {
-    const Vec3f c = p.color(2);
+    const Vec3f c = p.color(3);
     const auto decoded = [](Float x) { return fms(Float(2.0f), x, Float(1.0f)); };
     return {decoded(c.x), decoded(c.y), decoded(c.z)};
   }

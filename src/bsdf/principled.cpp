@@ -30,7 +30,7 @@ constexpr double kMaxRate = 1e6, kMaxIndex = 1e4;
 
 double read_eta(Parameters& p, bool transmits) {
   const double eta = p.number("eta", 1.5, 0, kMaxIndex, Ends::open_below);
-  double specular = p.number("specular", 0.5, 0, 1);
+  double specular = p.mean("specular", 0.5, 0, 1);
   if (p.has("eta")) {
     if (p.has("specular")) p.error("specular", "'specular' is given next to 'eta'", "eta or specular");
     // What is not there cannot be refracted at.

@@ -5,8 +5,10 @@
 //
 // An adapter is a struct with
 //   static UInt behind(const ParameterReader&, Choice&);     the material word behind it
-// and one that perturbs the frame with `Vec3f normal(const ParameterReader&, const Unperturbed&)` too, the new normal in
-// the shading frame, of any length. The block of those begins with the word behind and flags (kPerturb...).
+// but one that perturbs the frame has instead
+//   static Vec3f normal(const ParameterReader&, const Unperturbed&);     the new normal in the frame there, of any length
+// and its block begins with the words behind it, for what is then seen from the front and from the back, and flags
+// (kPerturb...).
 #pragma once
 
 #include "bsdf/bsdf.h"
@@ -14,14 +16,12 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// A surface as it is without its map. Normals are those of the outside, whichever side is looked at.
+/// A surface as it is without a map. Normals are those of the outside, whichever side is looked at.
 struct Unperturbed {
-  Frame frame;   ///< around the shading normal
+  Frame frame;   ///< around the shading normal, that of the maps around this one
   Vec3f normal;  ///< geometric
   Vec3f dp_du, dp_dv;
 };
-
-inline constexpr std::uint32_t kPerturbFlips = 1, kPerturbShadows = 2;
 
 /// How a hit finds its way to a model: by chance, or by a code that has one bit for each choice on the way.
 class Choice {

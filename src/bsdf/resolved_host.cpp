@@ -2,24 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <set>
-
 #include "base/text.h"
 
 namespace norrsken {
-namespace {
-
-/// A map among the BSDFs inside of `node`; each node is looked at once, however many lead to it.
-const Node* find_map(const Node& node, std::set<const Node*>& seen) {
-  for (const Node::Child& child : node.children) {
-    if (child.node->kind != "bsdf" || !seen.insert(child.node.get()).second) continue;
-    if (perturbs_bsdf(child.node->plugin)) return child.node.get();
-    if (const Node* found = find_map(*child.node, seen)) return found;
-  }
-  return nullptr;
-}
-
-}  // namespace
 
 std::vector<Material> nested_bsdfs(Parameters& p, Builder& builder, std::size_t count) {
   const auto inside = p.children("bsdf");
@@ -36,23 +21,21 @@ std::vector<Material> nested_bsdfs(Parameters& p, Builder& builder, std::size_t 
 }
 
 std::optional<PerturbedBlocks> perturbed_blocks(Parameters& p, Builder& builder) {
-  std::uint32_t flags = p.boolean("flip_invalid_normals", true) ? 1u : 0u;
-  if (p.boolean("use_shadowing_function", true)) flags |= 2u;
-  std::set<const Node*> seen;
-  if (const Node* map = find_map(p.node(), seen)) {
-    builder.diagnostics().error(
-        map->location,
-        fmt::format("bsdf {} inside of bsdf {} is not supported yet", quoted(map->plugin), quoted(p.node().plugin)),
-        "one bump or normal map");
-    p.children("bsdf");
-    return std::nullopt;
-  }
+  std::uint32_t flags = p.boolean("flip_invalid_normals", true) ? kPerturbFlips : 0u;
+  if (p.boolean("use_shadowing_function", true)) flags |= kPerturbShadows;
   const auto inside = nested_bsdfs(p, builder, 1);
   if (inside.empty()) return std::nullopt;
+  if (inside[0].maps == kMostMaps) {
+    builder.diagnostics().error(p.node().location,
+                                fmt::format("{} bump and normal maps stand inside each other", kMostMaps + 1),
+                                fmt::format("up to {}", kMostMaps));
+    return std::nullopt;
+  }
   builder.need_uv();
   PerturbedBlocks blocks;
-  blocks.front.add_word(inside[0].front).add_word(flags);
-  blocks.back.add_word(inside[0].back).add_word(flags);
+  for (ParameterBlock* block : {&blocks.front, &blocks.back}) block->add_word(inside[0].front).add_word(inside[0].back);
+  blocks.front.add_word(flags);
+  blocks.back.add_word(flags | kPerturbBack);
   return blocks;
 }
 

@@ -8,8 +8,8 @@ namespace norrsken {
 /// The materials of the `count` BSDFs that must stand inside; empty after a complaint.
 std::vector<Material> nested_bsdfs(Parameters& p, Builder& builder, std::size_t count);
 
-/// The word inside and the flags that bump and normal maps begin with, for the front and the back; empty after a
-/// complaint. Maps within maps are refused.
+/// The words inside and the flags that bump and normal maps begin with, for the front and the back; empty after a
+/// complaint. More maps inside each other than a hit remembers are refused.
 struct PerturbedBlocks {
   ParameterBlock front, back;
 };

@@ -109,9 +109,10 @@ TEST(NormalMapHost, StoresNormalsAndFlags) {
   ASSERT_THAT(c.messages(), IsEmpty());
   EXPECT_EQ(material_kind(front(c)), BsdfKind::normalmap);
   EXPECT_EQ(material_kind(word(c, front(c), 0)), BsdfKind::diffuse);
-  EXPECT_EQ(word(c, back(c), 0), word(c, front(c), 0));
-  EXPECT_EQ(word(c, front(c), 1), 1u) << "flips, no shadowing";
-  EXPECT_EQ(number(c, front(c), 3), 0.25f);
+  EXPECT_EQ(word(c, front(c), 1), word(c, front(c), 0)) << "of the twosided inside";
+  EXPECT_EQ(word(c, front(c), 2), kPerturbFlips) << "no shadowing";
+  EXPECT_EQ(word(c, back(c), 2), kPerturbFlips | kPerturbBack);
+  EXPECT_EQ(number(c, front(c), 4), 0.25f);
   EXPECT_TRUE(c.tables().needs_uv);
 }
 
@@ -127,10 +128,15 @@ TEST(NormalMapHost, Refusals) {
   EXPECT_THAT(messages("normalmap", map + R"(<float name="scale" value="1"/>)" + kDiffuse),
               ElementsAre("error: unused parameter 'scale' of bsdf 'normalmap' "
                           "[flip_invalid_normals, normalmap, use_shadowing_function]"));
-  // However deep it lies.
-  EXPECT_THAT(
-      messages("normalmap", map + adapter("mask", adapter("normalmap", map + kDiffuse))),
-      ElementsAre("error: bsdf 'normalmap' inside of bsdf 'normalmap' is not supported yet [one bump or normal map]"));
+}
+
+TEST(NormalMapHost, AsManyInsideEachOtherAsAHitRemembers) {
+  const std::string map = R"(<rgb name="normalmap" value="0.5, 0.5, 1"/>)";
+  std::string nested = kDiffuse;
+  for (std::uint32_t i = 0; i < kMostMaps; ++i) nested = adapter("mask", adapter("normalmap", map + nested));
+  EXPECT_THAT(messages("twosided", nested), IsEmpty());
+  EXPECT_THAT(messages("normalmap", map + nested),
+              ElementsAre("error: 5 bump and normal maps stand inside each other [up to 4]"));
 }
 
 TEST(BumpMapHost, Refusals) {

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include "bsdf/fresnel.h"
+#include "bsdf/microfacet.h"
 
 namespace norrsken {
 namespace {
@@ -47,7 +49,7 @@ TEST(RoughCoat, IsTheMeanOverVisibleNormals) {
       for (const double eta : {1.49, 2.4, 0.67}) {
         SCOPED_TRACE(testing::Message() << (ggx ? "ggx " : "beckmann ") << alpha << " eta " << eta);
         const Microfacet facets{Float(alpha), Float(alpha), Mask{ggx}};
-        const RoughCoat coat = integrate_rough_coat(facets, eta, kCosines);
+        const RoughCoat coat = integrate_rough_coat(alpha, ggx, eta, kCosines);
         ASSERT_EQ(coat.transmittances.size(), kCosines);
         double from_inside = 0;
         for (std::uint32_t i = 0; i < kCosines; ++i) {
@@ -60,6 +62,19 @@ TEST(RoughCoat, IsTheMeanOverVisibleNormals) {
       }
     }
   }
+}
+
+/// A scene may have thousands of them.
+TEST(RoughCoat, IsSoonIntegrated) {
+  constexpr int kCoats = 200;
+  const std::clock_t begin = std::clock();
+  double sum = 0;
+  for (int i = 0; i < kCoats; ++i)
+    sum += integrate_rough_coat(0.01f + 0.001f * static_cast<float>(i), i % 2 == 0, 1.3 + 0.001 * i, 64).from_inside;
+  const double milliseconds = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  EXPECT_GT(sum, 0);
+  // 0.35 each, on a machine of 2023; 12 without what makes it so.
+  EXPECT_LT(milliseconds / kCoats, 4);
 }
 
 TEST(RoughCoat, IsRememberedByAllThatItDependsOn) {

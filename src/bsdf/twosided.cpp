@@ -2,7 +2,8 @@
 //
 // Children
 //   bsdf   one or two: the first is seen from the front; the second, or else the first again, from the back
-// The back is shaded like a front whose normal is turned towards the viewer.
+// The back is shaded like a front whose normal is turned towards the viewer. A bump or normal map inside is mirrored with
+// it: its hills are hills from both sides. Those of a map around are hollows from behind. Both as in Mitsuba.
 #include "compile/plugins.h"
 
 namespace norrsken {

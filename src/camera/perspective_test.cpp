@@ -85,14 +85,24 @@ TEST(Perspective, FovSpansTheAxisThatIsNamed) {
               ElementsAre("error: 'fov_axis' is 'z' [x, y, diagonal, smaller, larger]"));
 }
 
+TEST(Perspective, TheAxisMayBeInCapitals) {
+  for (const auto& [capitals, small] : {std::pair("X", "x"), {"Smaller", "smaller"}, {"DIAGONAL", "diagonal"}}) {
+    const Compiled a = compile_camera(number("fov", "40") + text("fov_axis", capitals)),
+                   b = compile_camera(number("fov", "40") + text("fov_axis", small));
+    ASSERT_THAT(a.messages(), IsEmpty());
+    EXPECT_EQ(angle_diagonal(a.tables().camera), angle_diagonal(b.tables().camera));
+  }
+}
+
 TEST(Perspective, FocalLengthIsThatOf35MillimetreFilm) {
   const double of_50mm = 2 * std::atan(std::hypot(36.0, 24.0) / 100) * 180 / M_PI;
   EXPECT_NEAR(angle_diagonal(compile_camera("").tables().camera), of_50mm, 1e-4);
   EXPECT_NEAR(angle_diagonal(compile_camera(text("focal_length", "50mm")).tables().camera), of_50mm, 1e-4);
   EXPECT_NEAR(angle_diagonal(compile_camera(text("focal_length", "25 mm")).tables().camera),
               2 * std::atan(std::hypot(36.0, 24.0) / 50) * 180 / M_PI, 1e-4);
+  EXPECT_NEAR(angle_diagonal(compile_camera(text("focal_length", "50")).tables().camera), of_50mm, 1e-4);
   const std::string accepted = " [a length from 0.001mm to 1000000mm, such as 50mm]";
-  for (const std::string wrong : {"50", "0mm", "-3mm", "nanmm", "1e9mm", "mm"}) {
+  for (const std::string wrong : {"wide", "0mm", "-3mm", "nanmm", "1e9mm", "mm"}) {
     EXPECT_THAT(compile_camera(text("focal_length", wrong)).messages(),
                 ElementsAre("error: 'focal_length' is '" + wrong + "'" + accepted));
   }

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "base/text.h"
 #include "compile/plugins.h"
+#include "compile/scene_children.h"
 #include "compile/within_memory.h"
 #include "sampler/sampler_host.h"
 #include "scene/constant_spectrum.h"
@@ -27,12 +29,16 @@ std::uint64_t bytes_of(const Container& container) {
   return container.capacity() * sizeof(container[0]);
 }
 
+Variation variation_of(const Texture& texture) {
+  return texture_kind(texture.word) == TextureKind::mesh_attribute ? Variation::by_triangle : Variation::over_uv;
+}
+
 }  // namespace
 
 void Builder::refuse_kinds_to_come(Parameters& parameters) {
   for (const Node::Child& child : parameters.node().children) {
     const std::string& kind = child.node->kind;
-    if (kind != "medium" && kind != "volume" && (kind != "texture" || parameters.node().kind == "scene")) continue;
+    if (kind != "medium" && kind != "volume" && kind != "texture") continue;
     complain_about_plugin(*child.node, {kind == "texture" ? "rgb, spectrum or float" : "a scene without " + kind},
                           diagnostics_);
     parameters.children(kind);  // said enough about those
@@ -44,8 +50,12 @@ void Builder::describe(const Node& node, std::string detail) {
 }
 
 Material Builder::bsdf(const Node& node) {
-  if (const auto known = materials_.find(&node); known != materials_.end()) return known->second;
+  if (const auto known = materials_.find(&node); known != materials_.end()) {
+    vary(known->second.variation);
+    return known->second;
+  }
   Material material;
+  const Variation around = std::exchange(variation_, Variation::none);
   if (bsdf_depth_ == kMaxBsdfDepth) {
     diagnostics_.error(node.location, fmt::format("bsdfs are nested more than {} deep", kMaxBsdfDepth),
                        fmt::format("up to {} inside each other", kMaxBsdfDepth));
@@ -57,11 +67,16 @@ Material Builder::bsdf(const Node& node) {
     --bsdf_depth_;
     for (const Node::Child& child : node.children) {
       const auto inside = materials_.find(child.node.get());
-      if (inside != materials_.end()) material.choices = std::max(material.choices, inside->second.choices);
+      if (inside == materials_.end()) continue;
+      material.choices = std::max(material.choices, inside->second.choices);
+      material.maps = std::max(material.maps, inside->second.maps);
     }
     if (chooses_bsdf(node.plugin)) ++material.choices;
+    if (perturbs_bsdf(node.plugin)) ++material.maps;
     tables().material_choices = std::max(tables().material_choices, material.choices);
   }
+  material.variation = variation_;
+  vary(around);
   materials_.emplace(&node, material);
   return material;
 }
@@ -73,7 +88,10 @@ void add_to_uv(ParameterBlock& block, const glm::dmat4& transform) {
 }
 
 Texture Builder::texture(const Node& node) {
-  if (const auto known = textures_.find(&node); known != textures_.end()) return known->second;
+  if (const auto known = textures_.find(&node); known != textures_.end()) {
+    vary(variation_of(known->second));
+    return known->second;
+  }
   Texture texture;
   if (const auto* plugin = find_plugin(texture_plugins(), node, diagnostics_)) {
     Parameters p = parameters(node);
@@ -81,6 +99,7 @@ Texture Builder::texture(const Node& node) {
     p.finish();
   }
   textures_.emplace(&node, texture);
+  vary(variation_of(texture));
   return texture;
 }
 
@@ -107,7 +126,7 @@ ScalarParameter Builder::scalar(Parameters& p, std::string_view name, double fal
   if (const auto texture = texture_of(p, name, min, max))
     return {(texture->mean.x + texture->mean.y + texture->mean.z) / 3,
             texture->number != 0 ? texture->number : texture->word};
-  return {p.number(name, fallback, min, max, ends)};
+  return {p.mean(name, fallback, min, max, ends)};
 }
 
 std::uint32_t Builder::add_parameters(std::span<const float> values) {
@@ -128,6 +147,7 @@ MaterialWord Builder::add_material(BsdfKind kind, const ParameterBlock& paramete
 
 std::uint32_t Builder::add_light(const LightRecord& light, const LightPower& power) {
   light_powers_.push_back(power);
+  light_powers_.back().weight = sampling_weight_;
   tables().lights.push_back(light);
   return static_cast<std::uint32_t>(tables().lights.size() - 1);
 }
@@ -281,14 +301,15 @@ void Builder::override_samples_per_pixel(const LoadOptions& options) {
 
 void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
   const auto sensors = scene.children("sensor");
-  if (sensors.empty()) {
+  const Node* chosen = choose_sensor(scene, options.sensor);
+  if (sensors.empty() && is_whole_)
     diagnostics_.error(scene.node().location, "the scene has no sensor", "<sensor type=\"perspective\">");
-    return;
+  for (std::size_t i = 0; sensors.size() > 1 && i < sensors.size(); ++i) {
+    const bool is_chosen = sensors[i]->node.get() == chosen;
+    describe(*sensors[i]->node, fmt::format("--sensor {}{}", i, is_chosen ? ", the one that is used" : ""));
   }
-  for (std::size_t i = 1; i < sensors.size(); ++i) {
-    diagnostics_.warning(sensors[i]->location, "only the scene's first sensor is used, this one is left aside");
-  }
-  const Node& node = *sensors[0]->node;
+  if (!chosen) return;
+  const Node& node = *chosen;
   const auto* plugin = find_plugin(sensor_plugins(), node, diagnostics_);
   if (!plugin) return;
   Parameters p = parameters(node);
@@ -299,15 +320,24 @@ void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
   override_samples_per_pixel(options);
   if (!diagnostics_.has_errors()) measure_film(film_place, options.reserve_film);
   tables().camera = plugin->compile(p, *this, tables().film);
+  view_place_ = p.where("far_clip");
   p.finish();
 }
 
-void Builder::choose_lights() { norrsken::choose_lights(tables(), light_powers_); }
+void Builder::choose_lights() {
+  if (!light_powers_.empty() && std::ranges::all_of(light_powers_, [](const LightPower& p) { return p.weight == 0; })) {
+    diagnostics_.error(description_.scene->location, "every emitter has a sampling_weight of 0",
+                       "a sampling_weight above 0 for one of them");
+  }
+  norrsken::choose_lights(tables(), light_powers_);
+}
 
 void Builder::summarise() {
   const SceneTables& t = tables();
   SceneInfo& info = scene_.info;
   info.parameters = description_.parameters;
+  for (const SceneChange& change : description_.changes)
+    info.changes.push_back(place_text(change.location) + ": " + change.text);
   info.triangles = t.triangle_count();
   info.spheres = t.sphere_count();
   info.other_shapes = t.analytics.size();
@@ -330,10 +360,21 @@ void Builder::summarise() {
   if (const auto& budget = MemoryScope::current()) info.memory.loading = budget->peak();
 }
 
+Variation Builder::variation_of_layers() const {
+  Variation variation = Variation::none;
+  for (const FeatureLayer& layer : scene_.layers.features) {
+    if (layer.feature == kFeaturePrimitive) return Variation::by_triangle;
+    if ((1u << layer.feature & kUvFeatures) != 0) variation = Variation::over_uv;
+  }
+  return variation;
+}
+
 LoadedScene Builder::build(const LoadOptions& options) {
   const Node& root = *description_.scene;
+  is_whole_ = !diagnostics_.has_errors();
+  const std::set<const Node*> inside = nodes_inside_of_others(root);
   Parameters p = parameters(root);
-  tables().integrator = compile_chosen(p.child("integrator"), "integrator", "path", options.integrator,
+  tables().integrator = compile_chosen(integrator_of_scene(p, inside), "integrator", "path", options.integrator,
                                        integrator_plugins(), scene_.info.integrator);
   compile_sensor(p, options);
   for (const Node::Child* child : p.children("bsdf")) bsdf(*child->node);
@@ -343,14 +384,16 @@ LoadedScene Builder::build(const LoadOptions& options) {
     }
   }
   const auto shapes = p.children("shape");
-  if (shapes.empty()) diagnostics_.error(root.location, "the scene has no shape", "<shape type=\"...\">");
   for (const Node::Child* child : shapes) compile_shape(*child->node);
-  for (const Node::Child* child : p.children("emitter")) compile_emitter(*child->node, kNone);
-  refuse_kinds_to_come(p);
+  for (const Node* emitter : emitters_of_scene(p, inside)) compile_emitter(*emitter, kNone);
+  take_definitions(p, inside);
   p.finish();
-  if (tables().lights.empty() && !diagnostics_.has_errors()) {
-    diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
+  if (!diagnostics_.has_errors()) {
+    if (shapes.empty()) diagnostics_.warning(root.location, "the scene has no shape");
+    if (tables().lights.empty()) diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
+    tell_what_is_beyond_view();
   }
+  for (ShapeRecord& shape : tables().shapes) shape.variation = std::max(shape.variation, variation_of_layers());
   geometry_.finish(scene_.info);
   attributes_.finish();
   choose_lights();

@@ -1,6 +1,7 @@
 // What plugins fill the scene's tables through: services that they share, and the common part of each kind.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -121,7 +122,10 @@ class Builder {
   /// Stores a model's parameters and returns the word that leads to them.
   MaterialWord add_material(BsdfKind kind, const ParameterBlock& parameters);
   /// Says that models look at texture coordinates or tangents, which surface points then have.
-  void need_uv() { tables().needs_uv = true; }
+  void need_uv() {
+    tables().needs_uv = true;
+    vary(Variation::over_uv);
+  }
   /// `light.prob` and the alias fields are filled in later. Returns the record's index.
   std::uint32_t add_light(const LightRecord& light, const LightPower& power);
   /// A light that surrounds the scene, of which there may be one.
@@ -166,7 +170,14 @@ class Builder {
   const Node* texture_by_uv(const Node& node);
   void compile_emitter(const Node& node, std::uint32_t shape);
   void choose_lights();
+  /// Remembers the shape that was added last, if the camera cannot see that far.
+  void remember_if_beyond_view(const Node& node);
+  void tell_what_is_beyond_view();
   void summarise();
+  /// What is being compiled varies so, at least.
+  void vary(Variation variation) { variation_ = std::max(variation_, variation); }
+  /// What the layers that are asked for show of the surfaces themselves.
+  Variation variation_of_layers() const;
 
   template <class Function>
   auto compile_chosen(const Node::Child* child, const char* kind, const char* fallback,
@@ -187,8 +198,14 @@ class Builder {
   std::map<std::tuple<TextureWord, double, double>, Texture> clamped_textures_;
   std::map<const Node*, const Node*> textures_by_uv_;
   std::optional<Material> default_material_;
+  bool is_whole_ = true;  ///< whether the scene was read without errors: what is missing is not in the file
+  Variation variation_ = Variation::none;  ///< of what is being compiled
   int bsdf_depth_ = 0;
   int integrator_depth_ = 0;
+  double sampling_weight_ = 1;  ///< of the emitter that is being compiled
+  std::vector<const Node*> beyond_view_;
+  double farthest_ = 0;  ///< depth of what is beyond the camera's view
+  SourceLocation view_place_;
   Array<LightPower> light_powers_;
 };
 

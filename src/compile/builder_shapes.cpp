@@ -1,4 +1,9 @@
 // The builder's part that is about shapes, what they are made of, and lights.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "base/text.h"
@@ -7,14 +12,41 @@
 #include "compile/within_memory.h"
 
 namespace norrsken {
+namespace {
+
+bool is_delta(LightKind kind) {
+  switch (kind) {
+#define NORRSKEN_LIGHT(name, Model, is_delta) \
+  case LightKind::name:                       \
+    return is_delta;
+#include "light/list.def"
+#undef NORRSKEN_LIGHT
+    default:
+      return false;
+  }
+}
+
+}  // namespace
 
 void Builder::compile_emitter(const Node& node, std::uint32_t shape) {
   const auto* plugin = find_plugin(emitter_plugins(), node, diagnostics_);
   if (!plugin) return;
+  constexpr double kMaxWeight = 1e12;
   Parameters p = parameters(node);
+  sampling_weight_ = p.number("sampling_weight", 1, 0, kMaxWeight);
+  const std::size_t before = tables().lights.size();
   within_memory(node.location, "emitter " + quoted(node.plugin), diagnostics_,
                 [&] { plugin->compile(p, *this, shape); });
   p.finish();
+  if (sampling_weight_ > 0 || tables().lights.size() == before) return;
+  if (is_delta(tables().lights.back().kind) || !tables().integrator.finds_lights()) {
+    diagnostics_.warning(
+        p.where("sampling_weight"),
+        fmt::format("the light of emitter {} is lost: with a 'sampling_weight' of 0 it is not sampled, "
+                    "and nothing else finds it",
+                    quoted(node.plugin)),
+        "a sampling_weight above 0");
+  }
 }
 
 Material Builder::material_of(Parameters& shape) {
@@ -31,8 +63,39 @@ void Builder::compile_shape(const Node& node) {
   const auto* plugin = find_plugin(shape_plugins(), node, diagnostics_);
   if (!plugin) return;
   Parameters p = parameters(node);
+  if (!geometry_.in_group()) geometry_.forget_latest();
   within_memory(p.has("filename") ? p.where("filename") : node.location, "shape " + quoted(node.plugin), diagnostics_,
                 [&] { compile_shape(p, plugin->compile); });
+  if (!geometry_.in_group()) remember_if_beyond_view(node);
+}
+
+void Builder::remember_if_beyond_view(const Node& node) {
+  const GeometryBuilder::Box& box = geometry_.latest();
+  if (box.empty()) return;
+  const CameraRecord& camera = tables().camera;
+  const auto vector = [](const float(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
+  const glm::dvec3 forward = vector(camera.forward);
+  const double middle = glm::dot((box.lower + box.upper) / 2.0 - vector(camera.origin), forward);
+  const double half = glm::dot((box.upper - box.lower) / 2.0, glm::abs(forward));
+  if (middle - half <= static_cast<double>(camera.far_clip)) return;
+  beyond_view_.push_back(&node);
+  farthest_ = std::max(farthest_, middle + half);
+}
+
+void Builder::tell_what_is_beyond_view() {
+  if (beyond_view_.empty()) return;
+  constexpr std::size_t kNamed = 5;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(kNamed, beyond_view_.size()); ++i) {
+    const Node& node = *beyond_view_[i];
+    names.push_back(node.id.empty() ? fmt::format("a {} in line {}", node.plugin, node.location.line)
+                                    : quoted(node.id));
+  }
+  if (beyond_view_.size() > kNamed) names.push_back(fmt::format("and {} more", beyond_view_.size() - kNamed));
+  diagnostics_.warning(view_place_,
+                       fmt::format("what is farther away than 'far_clip', {:g}, is not seen: {}",
+                                   static_cast<double>(tables().camera.far_clip), join(names)),
+                       fmt::format("a far_clip of at least {:.3g}", farthest_));
 }
 
 void Builder::compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compile)(Parameters&, Builder&)) {
@@ -53,7 +116,10 @@ void Builder::compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compil
       diagnostics_.error(emitter->location, "an emitter stands inside a shapegroup, whose instances cannot shine",
                          "emitters on shapes of the scene itself");
     } else if (emitter) {
+      variation_ = Variation::none;
       compile_emitter(*emitter->node, shape);
+      ShapeRecord& record = tables().shapes[shape];
+      record.variation = std::max(record.variation, variation_);
     }
   }
   refuse_kinds_to_come(p);
@@ -65,7 +131,7 @@ std::uint32_t Builder::shape_group(const Node& node) {
   Parameters p = parameters(node);
   geometry_.begin_group();
   const auto shapes = p.children("shape");
-  if (shapes.empty()) diagnostics_.error(node.location, "the shapegroup has no shape", "<shape type=\"...\">");
+  if (shapes.empty()) diagnostics_.warning(node.location, "the shapegroup has no shape");
   for (const Node::Child* child : shapes) compile_shape(*child->node);
   p.finish();
   return groups_[&node] = geometry_.end_group();

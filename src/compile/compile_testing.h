@@ -18,12 +18,12 @@ struct Compiled {
   const SceneTables& tables() const { return scene.value().tables; }
   const SceneInfo& info() const { return scene.value().info; }
 
-  /// One line per complaint: "error: MESSAGE [ACCEPTED]", without the brackets if nothing is accepted.
+  /// One line per complaint: "error: MESSAGE [ACCEPTED]", or "warning: ", or "note: ", without the brackets if nothing is accepted.
   std::vector<std::string> messages() const {
     std::vector<std::string> lines;
     for (const Diagnostic& d : diagnostics.all()) {
-      const char* severity = d.severity == Diagnostic::Severity::error ? "error: " : "warning: ";
-      lines.push_back(severity + d.message + (d.accepted.empty() ? "" : " [" + d.accepted + "]"));
+      lines.push_back(std::string(name_of(d.severity)) + ": " + d.message +
+                      (d.accepted.empty() ? "" : " [" + d.accepted + "]"));
     }
     return lines;
   }

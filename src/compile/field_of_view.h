@@ -22,9 +22,10 @@ inline const double kFilmDiagonal = std::hypot(36.0, 24.0);
 inline double focal_length_angle(Parameters& p) {
   const std::string text = p.text("focal_length", "50mm");
   constexpr std::string_view kUnit = "mm";
+  std::string_view length = text;
+  if (length.ends_with(kUnit)) length.remove_suffix(kUnit.size());
   double millimetres = 0;
-  const bool parsed = text.ends_with(kUnit) && parse_number(trim(std::string_view(text).substr(0, text.size() - 2)),
-                                                            millimetres) == NumberStatus::ok;
+  const bool parsed = parse_number(trim(length), millimetres) == NumberStatus::ok;
   if (!parsed || millimetres < 1e-3 || millimetres > 1e6) {
     p.error("focal_length", fmt::format("'focal_length' is {}", quoted(text)),
             "a length from 0.001mm to 1000000mm, such as 50mm");

@@ -83,24 +83,28 @@ std::uint32_t GeometryBuilder::add(ShapeGeometry geometry, Material material) {
   record.smooth = !geometry.mesh.normals.empty();
   record.has_texcoords = !geometry.mesh.texcoords.empty();
   record.group = group_;
+  record.variation = material.variation;
+  Box box;
   switch (of) {
     case Class::triangles:
-      add_triangles(std::move(geometry.mesh), material);
+      add_triangles(std::move(geometry.mesh), material, box);
       break;
     case Class::sphere:
-      add_spheres(geometry.spheres, material, record);
+      add_spheres(geometry.spheres, material, record, box);
       break;
     case Class::analytic:
-      add_analytic(*geometry.analytic, material);
+      add_analytic(*geometry.analytic, material, box);
       break;
   }
   record.primitive_count = static_cast<std::uint32_t>(surfaces(of).size()) - record.first_primitive;
   tables_.shapes.push_back(record);
+  boxes_[group_].extend(box, glm::dmat4(1));
+  if (!in_group()) latest_ = box;
   return shape;
 }
 
 void GeometryBuilder::add_spheres(const std::vector<ShapeGeometry::Sphere>& spheres, Material material,
-                                  ShapeRecord& record) {
+                                  ShapeRecord& record, Box& box) {
   for (const ShapeGeometry::Sphere& sphere : spheres) {
     SurfaceRecord surface{{}, material.front, material.back, next_shape()};
     for (int axis = 0; axis < 3; ++axis) surface.geometry[axis] = static_cast<float>(sphere.center[axis]);
@@ -109,11 +113,11 @@ void GeometryBuilder::add_spheres(const std::vector<ShapeGeometry::Sphere>& sphe
     record.flip_normals = sphere.flip_normals;
     record.object_from_world = sphere.object_from_world;
     const float* g = surface.geometry;
-    boxes_[group_].extend(glm::dvec3(g[0], g[1], g[2]), double{g[3]});
+    box.extend(glm::dvec3(g[0], g[1], g[2]), double{g[3]});
   }
 }
 
-void GeometryBuilder::add_analytic(const AnalyticShape& analytic, Material material) {
+void GeometryBuilder::add_analytic(const AnalyticShape& analytic, Material material, Box& box) {
   SurfaceRecord surface{{}, material.front, material.back, next_shape()};
   surface.geometry[0] = std::bit_cast<float>(static_cast<std::uint32_t>(tables_.analytics.size()));
   const std::uint32_t primitives = analytic.elements_are_primitives ? analytic.element_count : 1;
@@ -125,10 +129,10 @@ void GeometryBuilder::add_analytic(const AnalyticShape& analytic, Material mater
                                analytic.flip_normals ? 1u : 0u, static_cast<float>(analytic.area),
                                static_cast<std::uint32_t>(tables_.texels.size()), analytic.element_count});
   tables_.texels.insert(tables_.texels.end(), analytic.table.begin(), analytic.table.end());
-  boxes_[group_].extend({analytic.lower, analytic.upper}, analytic.world_from_local);
+  box.extend({analytic.lower, analytic.upper}, analytic.world_from_local);
 }
 
-void GeometryBuilder::add_triangles(MeshData mesh, Material material) {
+void GeometryBuilder::add_triangles(MeshData mesh, Material material, Box& box) {
   SceneTables& t = tables_;
   const std::size_t base = t.positions.size() / 3;
   if (base + mesh.positions.size() > kMaxElements || t.surfaces.size() + mesh.triangles.size() > kMaxElements) {
@@ -157,7 +161,6 @@ void GeometryBuilder::add_triangles(MeshData mesh, Material material) {
     return glm::dvec3(p[0], p[1], p[2]);
   };
   make_room((t.triangle_vertices.size() - first) / 3, t.surfaces);
-  Box& box = boxes_[group_];
   for (std::size_t i = first; i < t.triangle_vertices.size(); i += 3) {
     const glm::dvec3 a = corner(i), b = corner(i + 1), c = corner(i + 2);
     for (const glm::dvec3& p : {a, b, c}) box.extend(p);
@@ -193,6 +196,7 @@ bool GeometryBuilder::add_instance(std::uint32_t group, const glm::dmat4& world_
     if (!(box.lower[axis] >= -kMaxCoordinate && box.upper[axis] <= kMaxCoordinate)) return false;
   }
   boxes_[kNone].extend(box, glm::dmat4(1));
+  latest_ = box;
   tables_.instances.push_back({make_placement(world_from_object), group});
   return true;
 }

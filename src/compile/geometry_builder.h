@@ -23,6 +23,8 @@ struct Material {
   MaterialWord front = make_material(BsdfKind::absorb, 0);
   MaterialWord back = make_material(BsdfKind::absorb, 0);
   std::uint32_t choices = 0;  ///< the most that a way from here to a model has
+  std::uint32_t maps = 0;     ///< the same of bump and normal maps
+  Variation variation = Variation::none;
 };
 
 /// A shape in world space. With `normals` the mesh is smooth, without it is flat.
@@ -44,6 +46,13 @@ Placement make_placement(const glm::dmat4& world_from_local);
 
 class GeometryBuilder {
  public:
+  struct Box {
+    glm::dvec3 lower{std::numeric_limits<double>::infinity()}, upper{-std::numeric_limits<double>::infinity()};
+    void extend(const glm::dvec3& p, double radius = 0);
+    void extend(const Box& box, const glm::dmat4& map);
+    bool empty() const { return lower.x > upper.x; }
+  };
+
   GeometryBuilder(SceneTables& tables, Diagnostics& diagnostics) : tables_(tables), diagnostics_(diagnostics) {}
 
   /// Lets go of the mesh's arrays as it copies them: a large mesh is never in memory twice. Returns the shape's number.
@@ -63,22 +72,20 @@ class GeometryBuilder {
   /// False if the group would reach out of range there.
   bool add_instance(std::uint32_t group, const glm::dmat4& world_from_object);
 
+  /// Bounds in the world of the shape or instance that was added last; empty if nothing was since `forget_latest`.
+  const Box& latest() const { return latest_; }
+  void forget_latest() { latest_ = {}; }
+
   /// Puts spheres and analytic primitives behind the triangles, and tells the bounds of it all.
   void finish(SceneInfo& info);
 
  private:
   enum class Class { triangles, sphere, analytic };
-  struct Box {
-    glm::dvec3 lower{std::numeric_limits<double>::infinity()}, upper{-std::numeric_limits<double>::infinity()};
-    void extend(const glm::dvec3& p, double radius = 0);
-    void extend(const Box& box, const glm::dmat4& map);
-    bool empty() const { return lower.x > upper.x; }
-  };
 
   Array<SurfaceRecord>& surfaces(Class of);
-  void add_spheres(const std::vector<ShapeGeometry::Sphere>& spheres, Material material, ShapeRecord& record);
-  void add_analytic(const AnalyticShape& analytic, Material material);
-  void add_triangles(MeshData mesh, Material material);
+  void add_spheres(const std::vector<ShapeGeometry::Sphere>& spheres, Material material, ShapeRecord& record, Box& box);
+  void add_analytic(const AnalyticShape& analytic, Material material, Box& box);
+  void add_triangles(MeshData mesh, Material material, Box& box);
   std::uint32_t next_shape() const { return static_cast<std::uint32_t>(tables_.shapes.size()); }
 
   SceneTables& tables_;
@@ -87,6 +94,7 @@ class GeometryBuilder {
   Array<SurfaceRecord> spheres_, analytics_;  ///< waiting to be put behind the triangles
   std::uint32_t group_ = kNone;
   std::map<std::uint32_t, Box> boxes_;  ///< by group, the world's at kNone
+  Box latest_;
 };
 
 }  // namespace norrsken

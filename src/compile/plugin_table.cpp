@@ -1,5 +1,6 @@
 #include "compile/plugin_table.h"
 
+#include <algorithm>
 #include <map>
 
 #include "base/text.h"
@@ -37,18 +38,41 @@ const std::map<std::string_view, std::vector<std::string_view>>& mitsuba_plugins
   return plugins;
 }
 
+/// Those of Mitsuba 0.x that have no counterpart, as its manual lists them.
+const std::map<std::string_view, std::vector<std::string_view>>& older_plugins() {
+  static const std::map<std::string_view, std::vector<std::string_view>> plugins = {
+      {"bsdf",
+       {"coating", "difftrans", "hk", "irawan", "mixturebsdf", "phong", "roughcoating", "roughdiffuse", "sssbrdf",
+        "ward"}},
+      {"emitter", {"collimated", "sky", "sun"}},
+      {"integrator",
+       {"adaptive", "ao", "field", "irrcache", "motion", "multichannel", "bdpt", "erpt", "mlt", "photonmapper", "ppm",
+        "pssmlt", "sppm", "vpl"}},
+      {"phase", {"kkay", "microflake", "mixturephase"}},
+      {"sensor", {"fluencemeter", "perspective_rdist", "spherical", "telecentric"}},
+      {"shape", {"deformable", "hair", "heightfield"}},
+      {"texture", {"curvature", "gridtexture", "scale", "wireframe"}},
+  };
+  return plugins;
+}
+
+bool lists(const std::map<std::string_view, std::vector<std::string_view>>& plugins, std::string_view kind,
+           std::string_view name) {
+  const auto found = plugins.find(kind);
+  return found != plugins.end() && std::ranges::find(found->second, name) != found->second.end();
+}
+
 }  // namespace
 
-bool is_mitsuba_plugin(std::string_view kind, std::string_view name) {
-  const auto found = mitsuba_plugins().find(kind);
-  return found != mitsuba_plugins().end() && std::ranges::find(found->second, name) != found->second.end();
-}
+bool is_mitsuba_plugin(std::string_view kind, std::string_view name) { return lists(mitsuba_plugins(), kind, name); }
 
 void complain_about_plugin(const Node& node, std::vector<std::string> accepted, Diagnostics& diagnostics) {
   std::ranges::sort(accepted);
   std::string message;
   if (is_mitsuba_plugin(node.kind, node.plugin)) {
     message = node.kind + " " + quoted(node.plugin) + " is not supported yet";
+  } else if (lists(older_plugins(), node.kind, node.plugin)) {
+    message = node.kind + " " + quoted(node.plugin) + " of Mitsuba 0.6 is not supported";
   } else {
     message = "unknown " + node.kind + " " + quoted(node.plugin) + did_you_mean(node.plugin, accepted);
   }

@@ -31,35 +31,51 @@ std::vector<FeatureLayer> standard_features() {
   return layers;
 }
 
-void FilmError::add(const PixelEstimate (&channels_of_pixel)[3]) {
-  double variance = 0, freedom = std::numeric_limits<double>::infinity();
+void FilmError::add(const PixelEstimate (&channels_of_pixel)[3], std::uint32_t samples, bool some_dropped) {
+  double variance = 0;
   for (const PixelEstimate& e : channels_of_pixel) {
-    if (!e.known) continue;
     mean_sum += e.mean;
-    variance += e.variance;
-    freedom = std::min(freedom, e.degrees_of_freedom);
-    ++channels;
+    square_sum += e.mean * e.mean;
+    if (e.known) {
+      ++channels;
+      variance += e.variance;
+      sample_variance_sum += e.variance * samples;
+    } else if (!some_dropped) {
+      ++pending;
+    } else if (samples > 0) {
+      ++lost;
+      lost_inverse_samples += 1.0 / samples;
+    } else {
+      ++empty;
+    }
   }
   variance_sum += variance;
-  // Channels err together, pixels do not. For normal errors of variance v the variance estimated from f degrees of freedom
-  // has a variance of 2 v^2 / f, the squared error one of 2 v^2, and the expected square of the estimate is v^2 (1 + 2 / f).
-  if (variance > 0) spread += variance * variance * 2 * (freedom + 1) / (freedom + 2);
+  variance_square_sum += variance * variance;
 }
 
 void FilmError::operator+=(const FilmError& other) {
   mean_sum += other.mean_sum;
-  variance_sum += other.variance_sum;
-  spread += other.spread;
+  square_sum += other.square_sum;
   channels += other.channels;
+  variance_sum += other.variance_sum;
+  sample_variance_sum += other.sample_variance_sum;
+  variance_square_sum += other.variance_square_sum;
+  pending += other.pending;
+  lost += other.lost;
+  empty += other.empty;
+  lost_inverse_samples += other.lost_inverse_samples;
 }
 
 RelativeError FilmError::relative() const {
-  if (channels == 0 || !(mean_sum > 0)) return {};
-  constexpr double kNormal = 1.959964;  // 97.5 % of the normal distribution
-  const double n = static_cast<double>(channels);
-  const auto relative_root = [&](double sum) { return std::sqrt(std::max(sum, 0.0) / n) / (mean_sum / n); };
-  const double margin = kNormal * std::sqrt(spread);
-  return {relative_root(variance_sum), relative_root(variance_sum - margin), relative_root(variance_sum + margin)};
+  if (pending > 0 || channels == 0 || !(mean_sum > 0)) return {};
+  const auto known = static_cast<double>(channels), all = static_cast<double>(channels + lost + empty);
+  // What was lost is taken to be as noisy as the rest of the image, and what is black for want of samples as bright.
+  const double squared_error = variance_sum + sample_variance_sum / known * lost_inverse_samples +
+                               static_cast<double>(empty) * square_sum / static_cast<double>(channels + lost);
+  const double value = std::sqrt(squared_error / all) / (mean_sum / all);
+  if (!(variance_square_sum > 0)) return {value, value, value};
+  const double factor = error_uncertainty(variance_sum * variance_sum / variance_square_sum);
+  return {value, value / factor, value * factor};
 }
 
 Film::Film(const FilmSettings& settings, SamplerKind sampler, SceneLayers layers)
@@ -121,8 +137,7 @@ PixelEstimate Film::estimate(std::uint64_t pixel, int channel) const {
   if (!splats_.exist()) return samples;
   // Two independent estimates of two parts of the light.
   const PixelEstimate splats = splats_.estimate(pixel, channel);
-  return {samples.mean + splats.mean, samples.variance + splats.variance, samples.known && splats.known,
-          std::min(samples.degrees_of_freedom, splats.degrees_of_freedom)};
+  return {samples.mean + splats.mean, samples.variance + splats.variance, samples.known && splats.known};
 }
 
 PixelEstimate Film::estimate_samples(std::uint64_t pixel, int channel) const {
@@ -137,7 +152,7 @@ PixelEstimate Film::estimate_samples(std::uint64_t pixel, int channel) const {
     const double mean = sum(c) / count;
     if (n < 2) return {mean, 0, false};
     const double variance = (sum(3 + c) - count * mean * mean) / (count * (count - 1));
-    return {mean, std::max(variance, 0.0), true, count - 1};
+    return {mean, std::max(variance, 0.0), true};
   }
 
   double sums[kReplicates], counts[kReplicates];
@@ -154,7 +169,8 @@ FilmError Film::error(const FilmRegion& region) const {
   for (std::uint32_t y = region.y0; y < region.y0 + region.height; ++y) {
     for (std::uint32_t x = region.x0; x < region.x0 + region.width; ++x) {
       const std::uint64_t pixel = std::uint64_t{y} * width_ + x;
-      total.add({estimate(pixel, 0), estimate(pixel, 1), estimate(pixel, 2)});
+      total.add({estimate(pixel, 0), estimate(pixel, 1), estimate(pixel, 2)}, counts_[pixel] & ~kSomeDropped,
+                (counts_[pixel] & kSomeDropped) != 0);
     }
   }
   return total;

@@ -27,13 +27,24 @@ struct FilmRegion {
 
 /// Totals over pixels and channels, for the error of the whole image.
 struct FilmError {
-  double mean_sum = 0, variance_sum = 0;
-  double spread = 0;           ///< variance of the difference of variance_sum and the sum of squared errors
-  std::uint64_t channels = 0;  ///< pixel channels whose variance is known
+  double mean_sum = 0;
+  double square_sum = 0;  ///< of means
+  // Of the pixel channels whose variance is known: their number, variances, those of one sample, and the squares of
+  // variances, where those of a pixel's channels count as one.
+  std::uint64_t channels = 0;
+  double variance_sum = 0, sample_variance_sum = 0, variance_square_sum = 0;
+  /// Pixel channels whose variance is not known yet.
+  std::uint64_t pending = 0;
+  /// Those whose variance will never be known, as samples of theirs were dropped: some have samples, their numbers'
+  /// inverses added up here, and some have none.
+  std::uint64_t lost = 0, empty = 0;
+  double lost_inverse_samples = 0;
 
-  void add(const PixelEstimate (&channels_of_pixel)[3]);
+  /// `samples` are on the film, and those that were dropped are not.
+  void add(const PixelEstimate (&channels_of_pixel)[3], std::uint32_t samples, bool some_dropped);
   void operator+=(const FilmError& other);
-  /// sqrt(mean variance) / mean, with the interval that holds the image's true one with a probability of 95 %.
+  /// sqrt(mean squared error) / mean, with the interval that holds the image's true one with a probability of 95 % or
+  /// more; unknown as long as the variance of any channel is pending.
   RelativeError relative() const;
 };
 

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 
+#include "film/interval.h"
 #include "tables/wave_types.h"
 #include "tests/statistics/statistical_test.h"
 
@@ -107,26 +110,89 @@ TEST(Film, RelativeErrorOfTheImage) {
   EXPECT_EQ(FilmError{}.relative().value, -1);
 }
 
-/// Normal samples: the interval holds the root of the mean squared error in 95 % of images, or nearly; the
-/// mean that it is relative to is uncertain, too.
-TEST(Film, IntervalOfTheRelativeErrorHoldsTheTrueOne) {
-  constexpr int kImages = 4000, kPixels = 200;
-  for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol}) {
-    std::mt19937_64 random(7);
-    std::normal_distribution<double> normal(4, 1);
-    int held = 0;
-    for (int image = 0; image < kImages; ++image) {
-      Film film(size(kPixels, 1), sampler);
-      double squares = 0;
-      for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
-        for (int sample = 0; sample < 16; ++sample) add(film, sampler, pixel, normal(random));
-        squares += std::pow(film.estimate(pixel, 0).mean - 4, 2);
-      }
-      const RelativeError error = film.error({0, 0, kPixels, 1}).relative();
-      const double truth = std::sqrt(squares / kPixels) / 4;
-      if (error.low <= truth && truth <= error.high) ++held;
+/// Images of 200 pixels with normal samples, `noisy` of which have all the noise: in how many of them the interval holds
+/// the root of the mean squared error.
+double share_of_images_held(SamplerKind sampler, std::uint32_t noisy, int samples) {
+  constexpr int kImages = 1000, kPixels = 200;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal(0, 1);
+  int held = 0;
+  for (int image = 0; image < kImages; ++image) {
+    Film film(size(kPixels, 1), sampler);
+    double squares = 0;
+    for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+      for (int i = 0; i < samples; ++i) add(film, sampler, pixel, pixel < noisy ? 40 + normal(random) : 40);
+      squares += std::pow(film.estimate(pixel, 0).mean - 40, 2);
     }
-    EXPECT_NEAR(held / static_cast<double>(kImages), 0.95, 0.02) << static_cast<int>(sampler);
+    const RelativeError error = film.error({0, 0, kPixels, 1}).relative();
+    const double truth = std::sqrt(squares / kPixels) / 40;
+    if (error.low <= truth && truth <= error.high) ++held;
+  }
+  return held / static_cast<double>(kImages);
+}
+
+/// 95 % but for chance; also with two samples, and where one pixel has all the noise and its true error is one draw.
+TEST(Film, IntervalOfTheRelativeErrorHoldsTheTrueOne) {
+  for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol}) {
+    for (const int samples : {2, 16}) {
+      for (const std::uint32_t noisy : {200u, 20u, 5u, 1u}) {
+        EXPECT_GE(share_of_images_held(sampler, noisy, samples), 0.93)
+            << noisy << " noisy pixels, " << samples << " samples, sampler " << static_cast<int>(sampler);
+      }
+    }
+  }
+}
+
+/// Exact values of the F distribution, whose root it is.
+TEST(Interval, UncertaintyIsTheRootOfF) {
+  for (const auto& [n, f] : {std::pair{1.0, 647.789}, {2.0, 39.0}, {5.0, 7.1464}, {10.0, 3.7168}, {60.0, 1.6668}}) {
+    EXPECT_NEAR(error_uncertainty(n), std::sqrt(f), 0.015 * std::sqrt(f)) << n;
+  }
+}
+
+/// A film in the middle of its second pass says nothing, rather than speak for the pixels that have two samples.
+TEST(Film, ErrorIsUnknownUntilThatOfEveryPixelIsKnown) {
+  for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol}) {
+    Film film(size(3, 1), sampler);
+    for (const std::size_t pixel : {0u, 1u}) {
+      for (const double x : {1.0, 3.0}) add(film, sampler, pixel, x);
+    }
+    EXPECT_EQ(film.error({0, 0, 3, 1}).relative().value, -1) << "a hole";
+    add(film, sampler, 2, 100);
+    EXPECT_EQ(film.error({0, 0, 3, 1}).relative().value, -1) << "one sample";
+    add(film, sampler, 2, 104);
+    // Variances of the means: 1, 1, 4; means 2, 2, 102.
+    EXPECT_NEAR(film.error({0, 0, 3, 1}).relative().value, std::sqrt(2.0) / (106 / 3.0), 1e-12);
+  }
+}
+
+/// Samples that were dropped do not come back: their pixel counts as noisy as the others, and if it is black for want of
+/// any, its error is what the others show.
+TEST(Film, ErrorOfPixelsThatLostSamples) {
+  Film film(size(3, 1), SamplerKind::sobol);
+  for (const double x : {2.0, 4.0, 2.0, 4.0}) add(film, SamplerKind::sobol, 0, x);  // mean 3, variance of a sample 4/3
+  for (const double x : {3.0, 3.0}) add(film, SamplerKind::sobol, 1, x);
+  film.view().counts[1] |= kSomeDropped;
+  film.view().counts[2] = kSomeDropped;
+  EXPECT_NEAR(film.error({0, 0, 3, 1}).relative().value, std::sqrt((1.0 / 3 + 4.0 / 3 / 2 + 9) / 3) / 2, 1e-12);
+}
+
+/// Replicates that hold different numbers of samples, as those of paths from the lights do in the middle of a pass.
+TEST(Film, VarianceOfUnevenReplicatesIsUnbiased) {
+  std::mt19937 random(3);
+  std::exponential_distribution<double> value(1);  // variance 1
+  for (const auto& counts : {std::array{40.0, 3.0, 0.0, 0.0}, std::array{2.0, 1.0, 1.0, 1.0}}) {
+    double sum = 0, total = 0;
+    for (const double n : counts) total += n;
+    constexpr int kDraws = 40'000;
+    for (int i = 0; i < kDraws; ++i) {
+      double sums[kReplicates] = {};
+      for (std::size_t r = 0; r < kReplicates; ++r) {
+        for (double n = 0; n < counts[r]; ++n) sums[r] += value(random);
+      }
+      sum += estimate_from_replicates(sums, {counts[0], counts[1], counts[2], counts[3]}).variance;
+    }
+    EXPECT_NEAR(sum / kDraws * total, 1, 0.04) << counts[0];
   }
 }
 

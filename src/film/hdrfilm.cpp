@@ -9,14 +9,15 @@
 //   sample_border     boolean (default false): filters of pixels at the border of that rectangle reach beyond it, as
 //                     those within do; otherwise they are cut off there
 //   high_quality_edges  an older name of sample_border
-//   file_format       openexr (default)
+//   file_format       openexr (default), exr, rgbe or pfm: without effect, for the name of the output file decides how it
+//                     is written
 //   pixel_format      luminance, luminance_alpha, rgb (default), rgba, xyz or xyza: the channels of EXR files. Alpha is
 //                     the share of a pixel in which something is seen.
-//   component_format  float32 (default) or float16: how EXR files hold those channels; other layers are float32
+//   component_format  float32 (default), float16 or uint32, which is float32 here, for it holds no radiance: how EXR files
+//                     hold those channels; other layers are float32
 //   banner            boolean: nothing is drawn over images, so it changes nothing
 // Children: rfilter.
-// Departures: Mitsuba's default component_format is float16, ours loses nothing; its uint32, which holds no radiance,
-// and its other file formats are refused. The extension of the output file's name decides how it is written.
+// Departures: Mitsuba's default component_format is float16, ours loses nothing.
 #include <fmt/format.h>
 
 #include <span>
@@ -48,8 +49,12 @@ constexpr std::pair<const char*, PixelFormat> kPixelFormats[] = {{"rgb", PixelFo
                                                                  {"xyza", PixelFormat::xyza},
                                                                  {"luminance", PixelFormat::luminance},
                                                                  {"luminance_alpha", PixelFormat::luminance_alpha}};
-constexpr std::pair<const char*, bool> kComponentFormats[] = {{"float32", false}, {"float16", true}};
-constexpr std::pair<const char*, int> kFileFormats[] = {{"openexr", 0}, {"exr", 0}};
+enum class Component { float32, float16, uint32 };
+constexpr std::pair<const char*, Component> kComponentFormats[] = {
+    {"float32", Component::float32}, {"float16", Component::float16}, {"uint32", Component::uint32}};
+/// Whether files of this format have no place for what -o writes.
+constexpr std::pair<const char*, bool> kFileFormats[] = {
+    {"openexr", false}, {"exr", false}, {"rgbe", true}, {"pfm", true}};
 
 /// The rendered part of one side of the film: its offset and its length.
 std::pair<int, int> read_crop(Parameters& p, const char* offset_name, const char* size_name, int full) {
@@ -75,9 +80,17 @@ FilmSettings compile_film_hdrfilm(Parameters& p, Builder& builder) {
   std::tie(film.crop_x, film.width) = read_crop(p, "crop_offset_x", "crop_width", film.full_width);
   std::tie(film.crop_y, film.height) = read_crop(p, "crop_offset_y", "crop_height", film.full_height);
   film.sample_border = read_sample_border(p);
-  read_format<int>(p, "file_format", kFileFormats);
+  if (read_format<bool>(p, "file_format", kFileFormats)) {
+    p.diagnostics().note(p.where("file_format"), "'file_format' has no effect here",
+                         "-o FILE.exr, FILE.png or FILE.jpg");
+  }
   film.pixel_format = read_format<PixelFormat>(p, "pixel_format", kPixelFormats);
-  film.half_precision = read_format<bool>(p, "component_format", kComponentFormats);
+  const Component component = read_format<Component>(p, "component_format", kComponentFormats);
+  film.half_precision = component == Component::float16;
+  if (component == Component::uint32) {
+    p.diagnostics().note(p.where("component_format"),
+                         "'component_format' is float32 here, for uint32 holds no radiance");
+  }
   p.boolean("banner", false);
   film.filter = builder.rfilter(p);
   return film;

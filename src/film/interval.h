@@ -22,4 +22,15 @@ namespace norrsken {
 std::vector<float> confidence_intervals(std::uint32_t width, std::uint32_t height, std::span<const float> variances,
                                         std::span<const float> samples);
 
+/// Of the error of a whole image, which is estimated as the root of its pixels' added up variances: how many times too small
+/// or too large that may be, with a probability of 95 % or more that it is no worse. `pixels` is the square of the sum of
+/// the variances over the sum of their squares: as many equally noisy pixels as would make the same noise.
+///
+/// Both the true squared error and the estimate are sums over those pixels, taken as chi-square with so many degrees of
+/// freedom each (Satterthwaite, An Approximate Distribution of Estimates of Variance Components, 1946). Normal noise and four
+/// replicates would give the estimate three times as many, but where a few pixels have most of the noise it is not normal,
+/// and the greatest variance may be underestimated and not show. So F with equal degrees on both sides is on the safe
+/// side for ordinary images, where it is narrow anyway (tests/calibration).
+double error_uncertainty(double pixels);
+
 }  // namespace norrsken

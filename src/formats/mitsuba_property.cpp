@@ -10,8 +10,7 @@
 namespace norrsken {
 namespace {
 
-std::optional<Property::Spectrum> read_spectrum_element(const MitsubaContext& context, const XmlDocument& document,
-                                                        const Element& element) {
+std::optional<Property::Spectrum> read_spectrum_element(const MitsubaContext& context, const Element& element) {
   const Literal* value = element.find("value");
   const Literal* filename = element.find("filename");
   if ((value == nullptr) == (filename == nullptr)) {
@@ -20,12 +19,8 @@ std::optional<Property::Spectrum> read_spectrum_element(const MitsubaContext& co
     return std::nullopt;
   }
   if (value) return read_spectrum(*value, context.diagnostics);
-  const std::string path = resolve_file(context.files, filename->text, document.source().path(), context.search_paths);
-  if (path.empty()) {
-    context.diagnostics.error(filename->location(), fmt::format("there is no file {}", filename->quote(filename->text)),
-                              context.accepted_files(document, filename->text));
-    return std::nullopt;
-  }
+  const std::string path = context.find_file(*filename);
+  if (path.empty()) return std::nullopt;
   std::string error;
   const auto contents = context.files.read(path, error);
   context.diagnostics.named_at(path, filename->location());
@@ -35,6 +30,12 @@ std::optional<Property::Spectrum> read_spectrum_element(const MitsubaContext& co
   return std::nullopt;
 }
 
+// Three numbers and no wavelengths: in Mitsuba 0.x, which counted in RGB, a colour.
+bool is_triple(const Element& element) {
+  const std::string value = element.text("value");
+  return value.find(':') == std::string::npos && split(value, " \t\r\n,").size() == 3;
+}
+
 // The first step is applied first: each one multiplies from the left.
 std::optional<Property::Transform> read_transform(MitsubaContext& context, const XmlDocument& document,
                                                   pugi::xml_node xml) {
@@ -42,7 +43,8 @@ std::optional<Property::Transform> read_transform(MitsubaContext& context, const
   bool good = true;
   for (const pugi::xml_node child : xml.children()) {
     if (context.gave_up()) return std::nullopt;
-    const auto rules = transform_step_rules(child.name());
+    const std::string name = context.upgrade.element(document, child);
+    const auto rules = transform_step_rules(name);
     if (!rules) {
       good = false;
       const bool element = child.type() == pugi::node_element;
@@ -53,7 +55,8 @@ std::optional<Property::Transform> read_transform(MitsubaContext& context, const
                                 join(transform_step_names()));
       continue;
     }
-    const Element step = context.open(document, child, *rules);
+    Element step = context.open(document, child, *rules);
+    step.name = name;
     context.refuse_contents(document, child);
     const auto matrix = step.good ? read_transform_step(step, context.diagnostics) : std::nullopt;
     good = good && matrix;
@@ -70,7 +73,11 @@ bool fill(Property& property, MitsubaContext& context, const XmlDocument& docume
     return value.has_value();
   };
   const std::string& type = property.type;
-  if (type == "spectrum") return put(read_spectrum_element(context, document, element));
+  const bool is_old = context.upgrade.version.is_old();
+  if (type == "blackbody") return put(read_blackbody(element, context.diagnostics));
+  if (type == "spectrum" && is_old && is_triple(element))
+    return put(read_rgb(*element.find("value"), HexColor::linear, context.diagnostics));
+  if (type == "spectrum") return put(read_spectrum_element(context, element));
   if (type == "transform") return put(read_transform(context, document, xml));
   if (type == "point" || type == "vector") {
     const auto value = read_coordinates(element, std::nullopt, context.diagnostics);
@@ -81,7 +88,8 @@ bool fill(Property& property, MitsubaContext& context, const XmlDocument& docume
   if (type == "boolean") return put(read_boolean(value, context.diagnostics));
   if (type == "integer") return put(read_integer(value, context.diagnostics));
   if (type == "float") return put(read_float(value, context.diagnostics));
-  if (type == "rgb") return put(read_rgb(value, context.diagnostics));
+  if (type == "rgb") return put(read_rgb(value, is_old ? HexColor::linear : HexColor::srgb, context.diagnostics));
+  if (type == "srgb") return put(read_srgb(value, context.diagnostics));
   property.value = value.text;
   return true;
 }
@@ -94,8 +102,14 @@ void MitsubaContext::refuse_contents(const XmlDocument& document, pugi::xml_node
                       fmt::format("<{} .../>", node.name()));
 }
 
-std::string MitsubaContext::accepted_files(const XmlDocument& document, const std::string& name) const {
-  return norrsken::accepted_files(name, document.source().path(), search_paths);
+std::string MitsubaContext::find_file(const Literal& name) const {
+  std::string other;
+  std::string path = resolve_file(files, name.text, file_folders, &other);
+  if (path.empty())
+    diagnostics.error(name.location(), fmt::format("there is no file {}", name.quote(name.text)),
+                      accepted_files(name.text, file_folders));
+  if (!other.empty()) diagnostics.warning(name.location(), two_files_of_one_name(name.text, path, other));
+  return path;
 }
 
 const std::vector<std::string>& value_types() {
@@ -104,7 +118,16 @@ const std::vector<std::string>& value_types() {
   return types;
 }
 
-AttributeRules value_rules(std::string_view type) {
+const std::vector<std::string>& old_value_types() {
+  static const std::vector<std::string> types = {"blackbody", "srgb"};
+  return types;
+}
+
+AttributeRules value_rules(std::string_view type, SceneVersion version) {
+  if (type == "blackbody") return {{"name", "temperature"}, {version.is_before(4) ? "multiplier" : "scale"}};
+  // Colours of lights and of surfaces were told apart for the sake of spectral rendering.
+  if (type == "rgb" && version.is_old()) return {{"name", "value"}, {"intent"}};
+  if (type == "spectrum" && version.is_old()) return {{"name"}, {"value", "filename", "intent"}};
   if (type == "point" || type == "vector") return {{"name"}, {"value", "x", "y", "z"}};
   if (type == "spectrum") return {{"name"}, {"value", "filename"}};
   if (type == "transform") return {{"name"}, {}};
@@ -112,21 +135,22 @@ AttributeRules value_rules(std::string_view type) {
 }
 
 std::optional<Property> read_property(MitsubaContext& context, const XmlDocument& document, pugi::xml_node xml,
-                                      const Element& element) {
+                                      const Element& element, const std::string& name) {
   Property property;
   property.type = element.name;
   property.location = element.location;
-  for (const char* name : {"x", "filename", "value"}) {
-    if (const Literal* value = element.find(name)) property.location = value->location();
+  for (const char* attribute : {"x", "filename", "temperature", "value"}) {
+    if (const Literal* value = element.find(attribute)) property.location = value->location();
   }
   for (const Literal& attribute : element.attributes) {
     if (attribute.name != "name" && property.origin.empty()) property.origin = attribute.origin;
   }
   if (property.type != "transform") context.refuse_contents(document, xml);
   if (!element.good || !fill(property, context, document, xml, element)) return std::nullopt;
-  const Literal& name = *element.find("name");
-  property.name = name.text;
-  property.name_location = name.location();
+  const Literal& written = *element.find("name");
+  property.name = name;
+  if (written.text != name) property.written = written.text;
+  property.name_location = written.location();
   return property;
 }
 

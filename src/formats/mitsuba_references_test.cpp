@@ -297,5 +297,53 @@ room.xml:3:14: error: nothing has the id 'b'
 accepted: an id of the scene, which has none)");
 }
 
+// Which sphere is found, by its radius: of the files of one name that there are in several places.
+TEST(Includes, OfSeveralFilesTheOneThatMitsubaTakes) {
+  const auto sphere = [](int radius) {
+    return "<scene version=\"3.0.0\"><shape type=\"sphere\"><float name=\"radius\" value=\"" + std::to_string(radius) +
+           "\"/></shape></scene>";
+  };
+  const auto radius = [](const TestFiles& files) {
+    Diagnostics diagnostics;
+    const auto scene = read_scene(files, {}, diagnostics);
+    EXPECT_FALSE(diagnostics.has_errors()) << to_text(diagnostics);
+    return std::get<double>(scene->scene->children.at(0).node->properties.at(0).value);
+  };
+  const auto including = [](const std::string& file, const std::string& before = "") {
+    return "<scene version=\"3.0.0\">" + before + "<include filename=\"" + file + "\"/></scene>";
+  };
+  // An included file's own folder comes first, then those of who includes it.
+  TestFiles files{{"room.xml", including("sub/a.xml")}, {"sub/a.xml", including("b.xml")}, {"b.xml", sphere(1)}};
+  EXPECT_EQ(radius(files), 1);
+  files["sub/b.xml"] = sphere(2);
+  EXPECT_EQ(radius(files), 2);
+  EXPECT_EQ(complaints_about(files),
+            R"(sub/a.xml:1:43: warning: 'b.xml' is 'sub/b.xml' here, and there is 'b.xml' too (named at room.xml:1:43)
+    1 | <scene version="3.0.0"><include filename="b.xml"/></scene>
+      |                                           ^~~~~)");
+  // The last <path> comes before all others, and before the scene's folder.
+  EXPECT_EQ(radius({{"room.xml", including("b.xml", R"(<path value="x"/><path value="y"/>)")},
+                    {"b.xml", sphere(1)},
+                    {"x/b.xml", sphere(2)},
+                    {"y/b.xml", sphere(3)}}),
+            3);
+}
+
+TEST(Includes, TheFoldersOfFilesThatAreNamedLater) {
+  Diagnostics diagnostics;
+  const auto scene = read_scene(
+      TestFiles{{"dir/room.xml",
+                 R"(<scene version="3.0.0"><path value="x"/><include filename="sub/a.xml"/><path value="y"/></scene>)"},
+                {"room.xml",
+                 R"(<scene version="3.0.0"><path value="x"/><include filename="sub/a.xml"/><path value="y"/></scene>)"},
+                {"sub/a.xml", R"(<scene version="3.0.0"><path value="z"/></scene>)"},
+                {"x/1", ""},
+                {"y/1", ""},
+                {"sub/z/1", ""}},
+      {}, diagnostics);
+  EXPECT_EQ(to_text(diagnostics), "");
+  EXPECT_EQ(scene->search_paths, (std::vector<std::string>{"y", "x", "", "sub/z"}));
+}
+
 }  // namespace
 }  // namespace norrsken

@@ -34,10 +34,12 @@ Matrix rotate(const Element& step, Diagnostics& diagnostics) {
   return std::nullopt;
 }
 
-// Any direction at right angles to a unit vector.
-glm::dvec3 some_perpendicular(glm::dvec3 direction) {
-  const glm::dvec3 other = std::abs(direction.x) > 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-  return glm::cross(direction, other);
+// The upward direction where none is given: which one is a convention, and Mitsuba's decides how the picture is rolled.
+// Source: the first vector of Duff et al., "Building an Orthonormal Basis, Revisited", 2017, listing 3.
+glm::dvec3 default_up(glm::dvec3 forward) {
+  const double sign = std::copysign(1.0, forward.z);
+  const double a = -1 / (sign + forward.z);
+  return {1 + sign * forward.x * forward.x * a, sign * forward.x * forward.y * a, -sign * forward.x};
 }
 
 // Looks along +z with +y up and +x to the left, as Mitsuba's sensors do.
@@ -56,9 +58,9 @@ Matrix lookat(const Element& step, Diagnostics& diagnostics) {
   }
   const glm::dvec3 forward = (*target - *origin) / distance;
   const double up_length = glm::length(*up);
-  const glm::dvec3 up_direction = up_length > 0 ? *up / up_length : some_perpendicular(forward);
+  const glm::dvec3 up_direction = up_length > 0 ? *up / up_length : default_up(forward);
   const glm::dvec3 left = glm::cross(up_direction, forward);
-  if (!(glm::length(left) > 1e-9)) {
+  if (!(glm::length(left) > 1e-14)) {
     diagnostics.error(step.find("up")->location(), "'up' points along the line of sight", "a direction that does not");
     return std::nullopt;
   }

@@ -7,6 +7,7 @@
 #include "base/numbers.h"
 #include "base/text.h"
 #include "color/srgb.h"
+#include "scene/constant_spectrum.h"
 #include "scene/source_text.h"
 
 namespace norrsken {
@@ -45,6 +46,7 @@ int hex_digit(char c) {
   return -1;
 }
 
+// The components of #rrggbb, from 0 to 1.
 std::optional<Property::Rgb> hex_color(std::string_view text) {
   if (text.size() != 7) return std::nullopt;
   Property::Rgb color{};
@@ -52,9 +54,13 @@ std::optional<Property::Rgb> hex_color(std::string_view text) {
     const int high = hex_digit(text[static_cast<std::size_t>(1 + 2 * i)]);
     const int low = hex_digit(text[static_cast<std::size_t>(2 + 2 * i)]);
     if (high < 0 || low < 0) return std::nullopt;
-    color.value[i] = linear_from_srgb((high * 16 + low) / 255.0);
+    color.value[i] = (high * 16 + low) / 255.0;
   }
   return color;
+}
+
+Property::Rgb linear(const Property::Rgb& srgb) {
+  return {{linear_from_srgb(srgb.value.x), linear_from_srgb(srgb.value.y), linear_from_srgb(srgb.value.z)}};
 }
 
 // Appends a sample; false if its wavelength is not one that may follow.
@@ -111,15 +117,40 @@ std::optional<glm::dvec3> read_vector(const Literal& literal, Diagnostics& diagn
   return std::nullopt;
 }
 
-std::optional<Property::Rgb> read_rgb(const Literal& literal, Diagnostics& diagnostics) {
+std::optional<Property::Rgb> read_rgb(const Literal& literal, HexColor hex, Diagnostics& diagnostics) {
   const Piece piece = trimmed(literal);
   if (piece.text.starts_with('#')) {
-    if (const auto color = hex_color(piece.text)) return color;
+    if (const auto color = hex_color(piece.text)) return hex == HexColor::srgb ? linear(*color) : *color;
     complain(literal, piece, "is not a hexadecimal colour", "#rrggbb with digits 0 to 9 and a to f", diagnostics);
     return std::nullopt;
   }
   const auto value = read_vector(literal, diagnostics);
   return value ? std::optional(Property::Rgb{*value}) : std::nullopt;
+}
+
+std::optional<Property::Rgb> read_srgb(const Literal& literal, Diagnostics& diagnostics) {
+  const auto color = read_rgb(literal, HexColor::linear, diagnostics);
+  return color ? std::optional(linear(*color)) : std::nullopt;
+}
+
+std::optional<Property::Spectrum> read_blackbody(const Element& element, Diagnostics& diagnostics) {
+  Literal temperature = *element.find("temperature");
+  if (Piece piece = trimmed(temperature); !piece.text.empty() && (piece.text.back() == 'K' || piece.text.back() == 'k'))
+    temperature.text.resize(piece.offset + piece.text.size() - 1);
+  double scale = 1;
+  for (const char* name : {"scale", "multiplier"}) {
+    const Literal* literal = element.find(name);
+    const auto value = literal ? read_float(*literal, diagnostics) : std::optional(scale);
+    if (!value) return std::nullopt;
+    scale = *value;
+  }
+  const auto kelvin = read_float(temperature, diagnostics);
+  if (!kelvin) return std::nullopt;
+  if (!(*kelvin > 0 && *kelvin <= kMaxTemperature)) {
+    complain(temperature, trimmed(temperature), "is not a temperature", "a number above 0, in kelvin", diagnostics);
+    return std::nullopt;
+  }
+  return blackbody_spectrum(*kelvin, scale);
 }
 
 std::optional<Property::Spectrum> read_spectrum(const Literal& literal, Diagnostics& diagnostics) {

@@ -22,8 +22,15 @@ std::optional<double> read_float(const Literal& literal, Diagnostics& diagnostic
 std::optional<std::vector<double>> read_floats(const Literal& literal, Diagnostics& diagnostics);
 /// Three numbers, or one for all three components.
 std::optional<glm::dvec3> read_vector(const Literal& literal, Diagnostics& diagnostics);
-/// Three numbers, one, or #rrggbb, which is an 8-bit sRGB value as in HTML (not in Mitsuba 3; 0.6 had it).
-std::optional<Property::Rgb> read_rgb(const Literal& literal, Diagnostics& diagnostics);
+/// What #rrggbb means in <rgb>: an 8-bit sRGB value as in HTML, or, as in Mitsuba 0.x, 255ths of linear values (in Mitsuba
+/// 3 there is none).
+enum class HexColor { srgb, linear };
+/// Three numbers, one, or #rrggbb.
+std::optional<Property::Rgb> read_rgb(const Literal& literal, HexColor hex, Diagnostics& diagnostics);
+/// The same of sRGB values from 0 to 1: the <srgb> of Mitsuba 0.x.
+std::optional<Property::Rgb> read_srgb(const Literal& literal, Diagnostics& diagnostics);
+/// The <blackbody> of Mitsuba 0.x: a `temperature` in kelvin, such as "5000K", and a factor `scale` (or `multiplier`).
+std::optional<Property::Spectrum> read_blackbody(const Element& element, Diagnostics& diagnostics);
 /// One number, or "wavelength:value, ..." with wavelengths in nm, ascending.
 std::optional<Property::Spectrum> read_spectrum(const Literal& literal, Diagnostics& diagnostics);
 /// A .spd file: a wavelength in nm and a value a line, ascending, '#' begins a comment.

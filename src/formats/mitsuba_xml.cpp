@@ -12,6 +12,7 @@
 #include "formats/mitsuba_property.h"
 #include "formats/mitsuba_references.h"
 #include "formats/mitsuba_values.h"
+#include "formats/other_files.h"
 #include "formats/xml_document.h"
 
 namespace norrsken {
@@ -39,11 +40,10 @@ class MitsubaReader {
   MitsubaReader(const FileSystem& files, const std::vector<std::pair<std::string, std::string>>& parameters,
                 Diagnostics& diagnostics)
       : diagnostics_(diagnostics),
-        context_{files, diagnostics, SceneParameters(parameters, diagnostics), {}},
+        context_{files, diagnostics, SceneParameters(parameters, diagnostics), {}, {}, MitsubaUpgrade(diagnostics)},
         references_(diagnostics) {}
 
   std::optional<Description> read(const std::string& path) {
-    // What an included file names may also lie beside the top file.
     context_.search_paths.push_back(folder_of(path));
     auto scene = std::make_shared<Node>();
     scene->kind = "scene";
@@ -56,9 +56,10 @@ class MitsubaReader {
     Node everything;
     everything.children = {{{}, scene, {}}, {{}, rejected, {}}};
     if (!references_.resolve(everything) || !complete_) return std::nullopt;
+    context_.upgrade.finish();
     context_.parameters.finish();
     return Description{std::move(scene), std::move(context_.search_paths), context_.parameters.values(),
-                       std::move(memory_)};
+                       std::move(memory_), context_.upgrade.take_changes()};
   }
 
  private:
@@ -88,6 +89,12 @@ class MitsubaReader {
     auto contents = read_counted(context_.files, path, error);
     if (!contents)
       return fail(named_at, fmt::format("cannot read {} {}: {}", what, quoted(path, 200), error), "an XML file");
+    if (const auto other = recognise_other_file(path, contents->bytes)) {
+      SourceLocation location;
+      location.file = path;
+      diagnostics_.named_at(path, named_at);
+      return fail(std::move(location), other->message, other->accepted);
+    }
     xml_bytes_ += contents->bytes.size();
     if (xml_bytes_ > kMaxXmlBytes) {
       SourceLocation location;
@@ -103,7 +110,12 @@ class MitsubaReader {
       return;
     }
     open_files_.push_back(path);
+    const SceneVersion outer_version = context_.upgrade.version;
+    const std::vector<std::string> outer_folders = context_.file_folders;
+    context_.file_folders.insert(context_.file_folders.begin(), folder_of(path));
     read_root(*document, into, depth);
+    context_.upgrade.version = outer_version;
+    context_.file_folders = outer_folders;
     open_files_.pop_back();
   }
 
@@ -123,24 +135,25 @@ class MitsubaReader {
     read_children(document, root, into, depth);
   }
 
-  // Mitsuba 0.x spells parameters in camelCase and means other things by many: half understood is worse than refused.
   bool check_version(const Literal& version) {
-    constexpr const char* kAccepted = "2.0.0 or later, such as 3.0.0";
-    std::int64_t major = 0;
-    const std::string_view text = trim(version.text);
-    if (parse_integer(text.substr(0, text.find('.')), major) != NumberStatus::ok || major < 0) {
-      fail(version.location(), fmt::format("{} is not a version", version.quote(text)), kAccepted);
+    constexpr const char* kAccepted = "a version such as 3.0.0";
+    const auto parts = split(trim(version.text), ".");
+    std::int64_t numbers[2] = {0, 0};
+    for (std::size_t i = 0; i < std::size(numbers) && i < std::max<std::size_t>(parts.size(), 1); ++i) {
+      const std::string_view part = parts.empty() ? std::string_view() : parts[i].text;
+      if (parse_integer(part, numbers[i]) == NumberStatus::ok && numbers[i] >= 0 && numbers[i] < 1000) continue;
+      fail(version.location(), fmt::format("{} is not a version", version.quote(trim(version.text))), kAccepted);
       return false;
     }
-    if (major < 2) {
-      fail(version.location(), fmt::format("the scene is for Mitsuba {}, whose format is another one", quoted(text)),
-           kAccepted);
-      return false;
-    }
-    if (major > 3)
+    context_.upgrade.version = {static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
+    const std::string text = quoted(trim(version.text));
+    if (context_.upgrade.version.is_old())
+      diagnostics_.warning(
+          version.location(),
+          fmt::format("the scene is for Mitsuba {} and was upgraded; 'norrsken info' tells how", text));
+    if (numbers[0] > 3)
       diagnostics_.warning(version.location(),
-                           fmt::format("the scene is for Mitsuba {}, which may mean other things", quoted(text)),
-                           "2.x and 3.x");
+                           fmt::format("the scene is for Mitsuba {}, which may mean other things", text), "0.x to 3.x");
     return true;
   }
 
@@ -158,13 +171,14 @@ class MitsubaReader {
   }
 
   void read_node(const XmlDocument& document, pugi::xml_node node, Scope& into, int depth) {
-    const std::string_view name = node.name();
+    const std::string name = context_.upgrade.element(document, node);
     if (depth > kMaxDepth)
       return fail(document.location(node), fmt::format("elements are nested more than {} deep", kMaxDepth),
                   fmt::format("up to {} inside each other", kMaxDepth));
     const bool plain_spectrum = name == "spectrum" && !node.attribute("type");
-    if (contains(kObjects, name) && !plain_spectrum) return read_object(document, node, into, depth);
-    if (contains(value_types(), name)) return read_value(document, node, into);
+    const bool old_value = context_.upgrade.version.is_old() && contains(old_value_types(), name);
+    if (contains(kObjects, name) && !plain_spectrum) return read_object(document, node, name, into, depth);
+    if (old_value || contains(value_types(), name)) return read_value(document, node, into);
     if (name == "ref") return read_ref(document, node, into);
     if (name == "include") return read_include(document, node, into, depth);
     if (name == "default") return read_default(document, node);
@@ -178,7 +192,7 @@ class MitsubaReader {
     known.erase(std::unique(known.begin(), known.end()), known.end());
     std::string message = fmt::format("unknown element {}{}", quoted(name), did_you_mean(name, known));
     if (name == "scene") message = "<scene> inside of another element";
-    if (name == "animation") message = "<animation> is not supported";
+    if (name == "animation" || name == "subsurface") message = fmt::format("<{}> is not supported", name);
     if (transform_step_rules(name)) message = fmt::format("<{}> outside of a <transform>", name);
     diagnostics_.error(document.location(node), std::move(message), join(known));
   }
@@ -193,24 +207,25 @@ class MitsubaReader {
     return is_new;
   }
 
-  void read_object(const XmlDocument& document, pugi::xml_node xml, Scope& into, int depth) {
+  void read_object(const XmlDocument& document, pugi::xml_node xml, const std::string& kind, Scope& into, int depth) {
     const Element element = context_.open(document, xml, {{"type"}, {"id", "name"}});
     memory_.grow(sizeof(Node) + kTextBytes);
     auto node = std::make_shared<Node>();
-    node->kind = element.name;
+    node->kind = kind;
     node->plugin = element.text("type");
     node->id = element.text("id");
-    node->name = element.text("name");
+    const Literal* name = element.find("name");
+    if (name) node->name = context_.upgrade.parameter(*name);
     node->location = element.location;
     node->plugin_location = node->location;
     if (const Literal* type = element.find("type")) node->plugin_location = type->location();
 
     if (const Literal* id = element.find("id")) references_.name(node->id, node, id->location());
-    const Literal* name = element.find("name");
     const bool is_free = !name || claim(into, node->name, name->location());
     Node& parent = element.good && is_free ? into.node : *rejected_;
     if (!element.good && name) into.node.unreadable.push_back(node->name);
     parent.children.push_back({node->name, node, node->location});
+    context_.upgrade.add(node);
     Scope scope{*node, {}};
     read_children(document, xml, scope, depth);
   }
@@ -220,8 +235,9 @@ class MitsubaReader {
     context_.refuse_contents(document, xml);
     if (!element.good) return;
     const Literal* name = element.find("name");
-    if (name && !claim(into, name->text, name->location())) return;
-    references_.refer(into.node, element.text("id"), element.text("name"), element.find("id")->location());
+    const std::string today = name ? context_.upgrade.parameter(*name) : std::string();
+    if (name && !claim(into, today, name->location())) return;
+    references_.refer(into.node, element.text("id"), today, element.find("id")->location());
   }
 
   void read_alias(const XmlDocument& document, pugi::xml_node xml) {
@@ -256,8 +272,7 @@ class MitsubaReader {
       diagnostics_.error(element.location, fmt::format("<path> in a <{}>", into.node.kind), "<path> in <scene>");
       return;
     }
-    const std::string folder =
-        resolve_file(context_.files, value.text, document.source().path(), context_.search_paths);
+    const std::string folder = resolve_file(context_.files, value.text, context_.file_folders);
     if (folder.empty()) {
       diagnostics_.error(value.location(), fmt::format("there is no folder {}", value.quote(value.text)),
                          "an existing folder, relative to this file");
@@ -265,7 +280,10 @@ class MitsubaReader {
       diagnostics_.error(value.location(), fmt::format("{} is not a folder", value.quote(value.text)),
                          "an existing folder, relative to this file");
     } else {
-      context_.search_paths.push_back(folder);
+      context_.file_folders.insert(context_.file_folders.begin(), folder);
+      // What an included file adds is for its own sake; the scene's are asked first.
+      auto& paths = context_.search_paths;
+      paths.insert(open_files_.size() == 1 ? paths.begin() : paths.end(), folder);
     }
   }
 
@@ -277,11 +295,11 @@ class MitsubaReader {
       return;
     }
     const Literal& filename = *element.find("filename");
-    const std::string path =
-        resolve_file(context_.files, filename.text, document.source().path(), context_.search_paths);
-    if (path.empty())
-      return fail(filename.location(), fmt::format("there is no file {}", filename.quote(filename.text)),
-                  context_.accepted_files(document, filename.text));
+    const std::string path = context_.find_file(filename);
+    if (path.empty()) {
+      complete_ = false;
+      return;
+    }
     const std::string key = normal_path(path);
     const auto is_same = [&key](const std::string& open) { return normal_path(open) == key; };
     if (const auto open = std::find_if(open_files_.begin(), open_files_.end(), is_same); open != open_files_.end()) {
@@ -296,15 +314,16 @@ class MitsubaReader {
   }
 
   void read_value(const XmlDocument& document, pugi::xml_node xml, Scope& into) {
-    const Element element = context_.open(document, xml, value_rules(xml.name()));
+    const Element element = context_.open(document, xml, value_rules(xml.name(), context_.upgrade.version));
     const Literal* name = element.find("name");
-    if (name && !claim(into, name->text, name->location())) return;
-    auto property = read_property(context_, document, xml, element);
+    const std::string today = name ? context_.upgrade.parameter(*name) : std::string();
+    if (name && !claim(into, today, name->location())) return;
+    auto property = read_property(context_, document, xml, element, today);
     if (property) {
       memory_.grow(sizeof(Property) + kTextBytes);
       into.node.properties.push_back(std::move(*property));
     } else if (name) {
-      into.node.unreadable.push_back(name->text);
+      into.node.unreadable.push_back(today);
     }
   }
 

@@ -5,28 +5,14 @@
 #include <utility>
 
 #include "base/text.h"
+#include "formats/xml_encoding.h"
 
 namespace norrsken {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-std::string_view without_byte_order_mark(std::string_view text) {
-  return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
-}
-
-// Complains if the bytes are no text that an XML parser may see.
-bool check_encoding(const SourceText& source, Diagnostics& diagnostics) {
+// Complains if the text is none that an XML parser may see.
+bool check_text(const SourceText& source, Diagnostics& diagnostics) {
   const std::string_view text = source.text();
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    diagnostics.error(source.location(), "the file is UTF-16", "UTF-8");
-    return false;
-  }
-  if (const auto invalid = find_invalid_utf8(text)) {
-    const auto byte = static_cast<unsigned char>(text[*invalid]);
-    diagnostics.error(source.location(*invalid), fmt::format("byte 0x{:02x} is not UTF-8", byte), "UTF-8");
-    return false;
-  }
   if (const std::size_t null = text.find('\0'); null != std::string_view::npos) {
     diagnostics.error(source.location(null), "the file contains a NUL byte", "text");
     return false;
@@ -43,13 +29,14 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; 
 }  // namespace
 
 XmlDocument::XmlDocument(const std::string& path, std::string contents)
-    : contents_(std::move(contents)), source_(path, without_byte_order_mark(contents_)) {}
+    : contents_(std::move(contents)), source_(path, contents_) {}
 
 std::unique_ptr<XmlDocument> XmlDocument::parse(const std::string& path, std::string contents,
                                                 Diagnostics& diagnostics) {
+  if (!decode_xml(contents, path, diagnostics)) return nullptr;
   std::unique_ptr<XmlDocument> document(new XmlDocument(path, std::move(contents)));
   const bool good =
-      check_encoding(document->source_, diagnostics) && document->load(diagnostics) && document->find_root(diagnostics);
+      check_text(document->source_, diagnostics) && document->load(diagnostics) && document->find_root(diagnostics);
   return good ? std::move(document) : nullptr;
 }
 

@@ -13,7 +13,7 @@
 
 namespace norrsken {
 
-/// A stretch of bytes of the file.
+/// A stretch of bytes of the file, as UTF-8.
 struct XmlSpan {
   std::size_t offset = 0, length = 0;
 };
@@ -28,7 +28,7 @@ struct XmlAttribute {
 /// five of XML and character numbers is expanded, nothing is fetched, and depth costs no stack.
 class XmlDocument {
  public:
-  /// Empty, with a complaint, if `contents` is empty, no UTF-8 or not well-formed.
+  /// Empty, with a complaint, if `contents` is empty, of an unknown encoding (see `decode_xml`) or not well-formed.
   static std::unique_ptr<XmlDocument> parse(const std::string& path, std::string contents, Diagnostics& diagnostics);
 
   /// The only element at the top.

@@ -14,9 +14,8 @@
 //         All are 0 where nothing is seen.
 // Children: integrator (at most one; Mitsuba takes several). Its image is the image; if it has a name, it is a layer of
 // that name too. Without one the image is black.
-// Departures: prim_index and shape_index are those of a pixel's first sample, not a mean; where the accelerator is asked
-// to be `planes`, triangles that make one polygon all count as its first. duv_dx, duv_dy and boundary_test are not
-// supported yet.
+// Departures: prim_index and shape_index are those of a pixel's first sample, not a mean. duv_dx, duv_dy and
+// boundary_test are not supported yet.
 #include <fmt/format.h>
 
 #include <algorithm>

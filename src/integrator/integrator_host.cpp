@@ -1,7 +1,11 @@
 #include "integrator/integrator_host.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <utility>
+
+#include "base/text.h"
 
 namespace norrsken {
 
@@ -23,6 +27,13 @@ IntegratorSettings read_integrator(Parameters& p) {
   settings.emitter_samples = static_cast<int>(p.integer("emitter_samples", 1, 1, kMaxShadingSamples));
   settings.hide_emitters = p.boolean("hide_emitters", false);
   return settings;
+}
+
+IntegratorSettings read_volume_integrator(Parameters& p) {
+  p.diagnostics().note(
+      p.node().plugin_location,
+      fmt::format("integrator {} is 'path' here: the same where there is no medium", quoted(p.node().plugin)));
+  return read_integrator(p);
 }
 
 NestedIntegrator read_nested_integrator(Parameters& p, Builder& builder) {

@@ -23,6 +23,9 @@ inline constexpr int kMaxShadingSamples = 100000;
 
 IntegratorSettings read_integrator(Parameters& p);
 
+/// For integrators of volumes, which are path where there is no medium; a note says so.
+IntegratorSettings read_volume_integrator(Parameters& p);
+
 /// max_depth, bounces and rr_depth alone.
 IntegratorSettings read_path_lengths(Parameters& p);
 /// An integrator inside another one, and the name that its layers begin with.

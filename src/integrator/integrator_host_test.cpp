@@ -188,7 +188,6 @@ TEST(IntegratorHost, RefuseWhatIsOutOfRange) {
 
 TEST(Ptracer, TakesItsParameters) {
   const Compiled c = compile_integrator(integrator("ptracer", integer("max_depth", "7") + integer("rr_depth", "3") +
-                                                                  integer("samples_per_pass", "16") +
                                                                   R"(<boolean name="hide_emitters" value="true"/>)"));
   ASSERT_THAT(c.messages(), IsEmpty());
   const IntegratorSettings& settings = c.tables().integrator;
@@ -217,25 +216,42 @@ TEST(Ptracer, RefusesWhatIsOutOfRangeAndOtherParameters) {
               ElementsAre("error: 'max_depth' is -2 [an integer from -1 to 2147483647]"));
   EXPECT_THAT(messages(integer("rr_depth", "0")),
               ElementsAre("error: 'rr_depth' is 0 [an integer from 1 to 2147483647]"));
-  EXPECT_THAT(messages(integer("samples_per_pass", "0")),
-              ElementsAre("error: 'samples_per_pass' is 0 [an integer from 1 to 2147483647]"));
+  EXPECT_THAT(messages(integer("samples_per_pass", "16")),
+              ElementsAre("note: 'samples_per_pass' of an integrator has no effect here"));
   EXPECT_THAT(messages(R"(<float name="samples_per_pass" value="4"/>)"),
               ElementsAre("error: 'samples_per_pass' is a float [integer]"));
   EXPECT_THAT(messages(R"(<string name="hide_emitters" value="yes"/>)"),
               ElementsAre("error: 'hide_emitters' is a string [boolean]"));
   EXPECT_THAT(messages(integer("emitter_samples", "4")),
               ElementsAre("error: unused parameter 'emitter_samples' of integrator 'ptracer' "
-                          "[bounces, hide_emitters, max_depth, rr_depth, samples_per_pass]"));
+                          "[bounces, hide_emitters, max_depth, rr_depth]"));
+}
+
+TEST(VolumeIntegrators, ArePathWithoutMedia) {
+  for (const std::string name : {"volpath", "volpathmis"}) {
+    const Compiled c = compile_integrator(integrator(name, integer("max_depth", "7") + integer("rr_depth", "3") +
+                                                               R"(<boolean name="hide_emitters" value="true"/>)"));
+    EXPECT_THAT(c.messages(),
+                ElementsAre("note: integrator '" + name + "' is 'path' here: the same where there is no medium"));
+    EXPECT_EQ(c.tables().integrator.max_depth, 7);
+    EXPECT_EQ(c.tables().integrator.rr_depth, 3);
+    EXPECT_TRUE(c.tables().integrator.hide_emitters);
+    EXPECT_TRUE(c.tables().integrator.diffuse_bounces);
+  }
+  const std::string medium = R"(<medium type="homogeneous" name="interior"/>)";
+  EXPECT_THAT(compile_elements(integrator("volpath", "") + kSensor + kEmitter + R"(<shape type="sphere">)" + medium +
+                               "</shape>")
+                  .messages(),
+              ::testing::Contains("error: medium 'homogeneous' is not supported yet [a scene without medium]"));
 }
 
 TEST(IntegratorHost, RefusesOthers) {
-  EXPECT_THAT(
-      compile_integrator(integrator("volpath", "")).messages(),
-      ElementsAre(
-          "error: integrator 'volpath' is not supported yet [aov, depth, direct, moment, path, ptracer, whitted]"));
+  EXPECT_THAT(compile_integrator(integrator("prb", "")).messages(),
+              ElementsAre("error: integrator 'prb' is not supported yet [aov, depth, direct, moment, path, ptracer, "
+                          "volpath, volpathmis, whitted]"));
   EXPECT_THAT(compile_integrator(integrator("pth", "")).messages(),
               ElementsAre("error: unknown integrator 'pth', did you mean 'path'? [aov, depth, direct, moment, path, "
-                          "ptracer, whitted]"));
+                          "ptracer, volpath, volpathmis, whitted]"));
   EXPECT_THAT(compile_integrator(integrator("path", "") + integrator("path", "")).messages(),
               ElementsAre("error: scene has more than one integrator [one integrator]"));
 }

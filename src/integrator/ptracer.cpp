@@ -8,10 +8,7 @@
 //   bounces           integer, in place of `max_depth`: one less than that
 //   rr_depth          integer, from 1 (default 5): the depth from which Russian roulette ends paths
 //   hide_emitters     boolean (default false): the camera does not see the emitters themselves
-//   samples_per_pass  integer, from 1: taken and of no effect, for memory does not depend on the number of samples
 // Departures: emitters that the camera sees are sampled by its own rays, which leaves no noise in them.
-#include <limits>
-
 #include "compile/plugins.h"
 #include "integrator/integrator_host.h"
 
@@ -20,7 +17,6 @@ namespace norrsken {
 IntegratorSettings compile_integrator_ptracer(Parameters& p, Builder&) {
   IntegratorSettings settings = read_path_lengths(p);
   settings.hide_emitters = p.boolean("hide_emitters", false);
-  p.integer("samples_per_pass", 1, 1, std::numeric_limits<int>::max());
   settings.from_lights = true;
   return settings;
 }

@@ -13,8 +13,7 @@
 
 namespace norrsken {
 
-void compile_emitter_directional(Parameters& p, Builder& builder, std::uint32_t shape) {
-  refuse_shape(p, shape, "comes from infinitely far away");
+void compile_emitter_directional(Parameters& p, Builder& builder, std::uint32_t /*shape*/) {
   if (p.has("direction") && p.has("to_world")) {
     p.error("to_world", "emitter 'directional' has both 'direction' and 'to_world'", "one of them");
   }

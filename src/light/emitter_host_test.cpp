@@ -82,7 +82,7 @@ TEST(SpotEmitter, RefusesWhatMakesNoSense) {
       ElementsAre("error: 'texture' is of one value [a texture that differs from place to place, such as bitmap]"));
   EXPECT_THAT(compile_kind("spot", R"(<float name="cutoff" value="1"/>)").messages(),
               ElementsAre("error: unused parameter 'cutoff' of emitter 'spot' "
-                          "[beam_width, cutoff_angle, intensity, texture, to_world]"));
+                          "[beam_width, cutoff_angle, intensity, sampling_weight, texture, to_world]"));
 }
 
 TEST(DirectionalEmitter, GoesAlongItsDirection) {
@@ -113,7 +113,7 @@ TEST(DirectionalEmitter, RefusesNoDirectionAndTwo) {
               ElementsAre("error: 'irradiance' is (-1, 0, 0) [components of at least 0]"));
   EXPECT_THAT(compile_kind("directional", R"(<float name="radiance" value="1"/>)").messages(),
               ElementsAre("error: unused parameter 'radiance' of emitter 'directional', did you mean 'irradiance'? "
-                          "[direction, irradiance, to_world]"));
+                          "[direction, irradiance, sampling_weight, to_world]"));
 }
 
 TEST(ProjectorEmitter, HasScaleAndTheCamerasFieldOfView) {
@@ -146,7 +146,7 @@ TEST(ProjectorEmitter, RefusesWhatMakesNoSense) {
               ElementsAre("error: 'fov' is 180 [a number above 0 and below 180]"));
   EXPECT_THAT(compile_kind("projector", R"(<float name="width" value="1"/>)").messages(),
               ElementsAre("error: unused parameter 'width' of emitter 'projector' "
-                          "[focal_length, fov, fov_axis, irradiance, scale, to_world]"));
+                          "[focal_length, fov, fov_axis, irradiance, sampling_weight, scale, to_world]"));
 }
 
 TEST(EnvmapEmitter, SurroundsTheScene) {
@@ -206,21 +206,63 @@ TEST(EnvmapEmitter, RefusesWhatMakesNoSense) {
           "error: 'to_world' of emitter 'envmap' distorts [translations, rotations and scales with one value]"));
   EXPECT_THAT(
       compile_kind("envmap", R"(<string name="filename" value="map.hdr"/><float name="gamma" value="1"/>)").messages(),
-      ElementsAre("error: unused parameter 'gamma' of emitter 'envmap' [filename, mis_compensation, scale, to_world]"));
+      ElementsAre("error: unused parameter 'gamma' of emitter 'envmap' [filename, mis_compensation, sampling_weight, "
+                  "scale, to_world]"));
   const std::string map = R"(<emitter type="envmap"><string name="filename" value="map.hdr"/></emitter>)";
   EXPECT_THAT(compile(map + map).messages(),
               ElementsAre("error: the scene has more than one environment [one emitter that surrounds the scene]"));
 }
 
-TEST(Emitters, ThatAreNoSurfacesCannotBelongToAShape) {
-  for (const auto& [kind, why] : {std::pair("spot", "has no surface"),
-                                  {"projector", "has no surface"},
-                                  {"directional", "comes from infinitely far away"},
-                                  {"constant", "surrounds the scene"}}) {
-    EXPECT_THAT(
-        compile_elements(kSensor + R"(<shape type="sphere"><emitter type=")" + kind + R"("/></shape>)").messages(),
-        ElementsAre(std::string("error: emitter '") + kind + "' " + why + " and cannot belong to a shape [area]"));
+/// As in Mitsuba: the emitter is where it would be outside, and the shape has the material of one that shines.
+TEST(Emitters, ThatHaveNoSurfaceMayStandInAShape) {
+  for (const char* kind : {"spot", "projector", "directional", "point"}) {
+    const Compiled inside =
+        compile_elements(kSensor + R"(<shape type="sphere"><emitter type=")" + kind + R"("/></shape>)");
+    const Compiled outside = compile_elements(kSensor + kShape + R"(<emitter type=")" + kind + R"("/>)");
+    EXPECT_THAT(inside.messages(), IsEmpty());
+    ASSERT_EQ(inside.tables().lights.size(), 1u);
+    EXPECT_EQ(inside.tables().lights[0].kind, outside.tables().lights[0].kind);
+    EXPECT_THAT(inside.tables().lights[0].origin, ::testing::ElementsAreArray(outside.tables().lights[0].origin));
+    EXPECT_EQ(inside.tables().light_of(0), kNone);
+    EXPECT_EQ(inside.tables().surfaces.at(0).material_front, make_material(BsdfKind::absorb, 0));
   }
+  EXPECT_THAT(compile_elements(kSensor + R"(<shape type="sphere"><emitter type="constant"/></shape>)").messages(),
+              ElementsAre("error: emitter 'constant' surrounds the scene and cannot belong to a shape [area]"));
+}
+
+std::string weighted(const std::string& emitter, const std::string& weight) {
+  return "<emitter type=\"" + emitter + "\"><float name=\"sampling_weight\" value=\"" + weight + "\"/></emitter>";
+}
+
+TEST(SamplingWeight, IsAFactorOnTheShareOfTheChoice) {
+  const Compiled c = compile_elements(kSensor + kShape + weighted("point", "3") + weighted("point", "1"));
+  ASSERT_THAT(c.messages(), IsEmpty());
+  EXPECT_FLOAT_EQ(c.tables().lights[0].prob, 0.75f);
+  EXPECT_FLOAT_EQ(c.tables().lights[1].prob, 0.25f);
+}
+
+TEST(SamplingWeight, OfZeroLeavesAnAreaLightToTheRaysThatMeetIt) {
+  const Compiled c = compile_elements(kSensor + kEmitter + "<shape type=\"sphere\">" + weighted("area", "0") +
+                                      "</shape>" + weighted("constant", "0"));
+  EXPECT_THAT(c.messages(), IsEmpty());
+  EXPECT_EQ(c.tables().lights[0].prob, 0);
+  EXPECT_EQ(c.tables().lights[1].prob, 1);
+  EXPECT_EQ(c.tables().lights[2].prob, 0);
+}
+
+TEST(SamplingWeight, OfZeroLosesWhatNoRayMeets) {
+  const std::string lost =
+      "' is lost: with a 'sampling_weight' of 0 it is not sampled, and nothing else finds it "
+      "[a sampling_weight above 0]";
+  EXPECT_THAT(compile_elements(kSensor + kShape + kEmitter + weighted("point", "0")).messages(),
+              ElementsAre("warning: the light of emitter 'point" + lost));
+  EXPECT_THAT(compile_elements(R"(<integrator type="ptracer"/>)" + kSensor + kEmitter + "<shape type=\"sphere\">" +
+                               weighted("area", "0") + "</shape>")
+                  .messages(),
+              ElementsAre("warning: the light of emitter 'area" + lost));
+  EXPECT_THAT(
+      compile_elements(kSensor + "<shape type=\"sphere\">" + weighted("area", "0") + "</shape>").messages(),
+      ElementsAre("error: every emitter has a sampling_weight of 0 [a sampling_weight above 0 for one of them]"));
 }
 
 TEST(DirectionalAreaEmitter, SaysThatNothingFindsIt) {
@@ -245,7 +287,7 @@ TEST(DirectionalAreaEmitter, SaysThatNothingFindsIt) {
           kSensor + kEmitter +
           R"(<shape type="rectangle"><emitter type="directionalarea"><float name="power" value="2"/></emitter></shape>)")
           .messages(),
-      ::testing::Contains("error: unused parameter 'power' of emitter 'directionalarea' [radiance]"));
+      ::testing::Contains("error: unused parameter 'power' of emitter 'directionalarea' [radiance, sampling_weight]"));
 }
 
 TEST(DirectionalAreaEmitter, ShinesForPathsFromTheLights) {

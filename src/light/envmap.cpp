@@ -89,11 +89,6 @@ double compensation_of(const StoredImage& image, const float* texels) {
   return mean - least > 0.01 * mean ? mean : 0;
 }
 
-/// Whether surfaces sample directions wherever they sample lights, so that lights need not be sampled everywhere.
-bool has_competition(const IntegratorSettings& integrator) {
-  return !integrator.from_lights && integrator.diffuse_bounces && integrator.bsdf_samples > 0;
-}
-
 /// Writes the distributions and the kernel's parameters; returns the mean radiance over all directions.
 glm::dvec3 write_map(const StoredImage& image, bool compensate, SceneTables& tables, ParameterBlock& block) {
   auto& texels = tables.texels;
@@ -145,7 +140,7 @@ void compile_emitter_envmap(Parameters& p, Builder& builder, std::uint32_t shape
   const std::string filename = p.file("filename");
   const double scale = p.number("scale", 1, 0, kMaxEmission);
   const glm::dmat4 to_world = p.transform("to_world");
-  const bool compensate = p.boolean("mis_compensation", false) && has_competition(builder.tables().integrator);
+  const bool compensate = p.boolean("mis_compensation", false) && builder.tables().integrator.finds_lights();
   glm::dmat3 axes(to_world);
   axes /= glm::length(axes[0]);
   if (!keeps_lengths(axes)) {

@@ -38,14 +38,15 @@ LightPower environment_power(const glm::dvec3& radiance) {
 std::vector<double> shares_of_choice(std::span<const LightPower> lights) {
   double own_total = 0, own_count = 0;
   for (const LightPower& light : lights) {
+    if (!(light.weight > 0)) continue;
     own_total += light.own;
     own_count += light.own > 0 ? 1 : 0;
   }
   std::vector<double> shares;
   for (const LightPower& light : lights) {
     double share = light.per_cross_section > 0 ? 1 : 0;
-    if (light.own > 0) share += 0.5 * light.own / own_total + 0.5 / own_count;
-    shares.push_back(share);
+    if (light.own > 0 && light.weight > 0) share += 0.5 * light.own / own_total + 0.5 / own_count;
+    shares.push_back(light.weight * share);
   }
   return shares;
 }
@@ -82,7 +83,7 @@ void fill_alias_table(std::span<LightRecord> lights, std::span<const double> sha
 
 void choose_lights(SceneTables& tables, std::span<const LightPower> lights) {
   fill_alias_table(tables.lights, shares_of_choice(lights));
-  const auto has_place = [](const LightPower& light) { return light.own > 0; };
+  const auto has_place = [](const LightPower& light) { return light.own > 0 && light.weight > 0; };
   // Paths that begin at the lights have no place to choose them for.
   if (tables.integrator.from_lights || std::ranges::count_if(lights, has_place) < std::ptrdiff_t{kLightTreeFrom})
     return;

@@ -23,6 +23,7 @@ struct LightPower {
   double own = 0;                ///< of lights in the scene: pi A L of a surface, 4 pi I of a point
   double per_cross_section = 0;  ///< of lights around it: what crosses a unit of area, times the scene's pi R^2
   LightBounds bounds = {};       ///< of lights in the scene
+  double weight = 1;             ///< factor on how often it is chosen; 0: never
 };
 
 /// pi A L, for a surface that emits radiance L to one side.
@@ -42,7 +43,7 @@ LightPower environment_power(const glm::dvec3& radiance);
 
 /// How often each light should be chosen, in proportion. Each light around the scene has as large a share as all lights
 /// in it together, because how much of its power arrives is not known; of those in it, half is dealt out by power and
-/// half evenly, so that a weak light nearby is not left to chance. What has no power gets nothing.
+/// half evenly, so that a weak light nearby is not left to chance. What has no power, or no weight, gets nothing.
 /// Source: the even split between infinite lights and the others is that of pbrt-v4 (Pharr, Jakob, Humphreys, section
 /// 12.6.3).
 std::vector<double> shares_of_choice(std::span<const LightPower> lights);

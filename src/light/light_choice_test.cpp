@@ -78,6 +78,16 @@ TEST(LightChoice, HalfOfTheChoiceIsByPowerAndHalfIsEven) {
   EXPECT_EQ(shares[2], 0);
 }
 
+TEST(LightChoice, WeightsAreFactorsOnShares) {
+  const std::vector<LightPower> lights = {
+      {.own = 9, .weight = 2}, {.own = 1}, {.own = 5, .weight = 0}, {.per_cross_section = 4, .weight = 3}};
+  const auto shares = shares_of_choice(lights);
+  EXPECT_NEAR(shares[0], 1.4, 1e-12);
+  EXPECT_NEAR(shares[1], 0.3, 1e-12);
+  EXPECT_EQ(shares[2], 0);
+  EXPECT_EQ(shares[3], 3);
+}
+
 TEST(LightChoice, WhatSurroundsTheSceneIsChosenAsOftenAsAllThatIsInIt) {
   const std::vector<LightPower> lights = {{.own = 3}, {.per_cross_section = 1e9}, {.own = 3}, {.per_cross_section = 1}};
   const auto shares = shares_of_choice(lights);

@@ -1,4 +1,9 @@
-// What emitters' host files share.
+// What all emitters are told.
+//
+// Parameters
+//   sampling_weight  number, at least 0 (default 1): factor on how often the emitter is chosen when light is sampled. With
+//                    0 it never is: surfaces and environments are then found by rays alone, and what no ray finds is lost,
+//                    with a warning. Not all may be 0
 #pragma once
 
 #include <glm/mat3x3.hpp>

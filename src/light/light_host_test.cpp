@@ -48,13 +48,10 @@ TEST(PointEmitter, MayBePlacedByATransform) {
 TEST(PointEmitter, RefusesNegativeLightAndOtherParameters) {
   EXPECT_THAT(compile_emitter(R"(<emitter type="point"><rgb name="intensity" value="-1, 1, 1"/></emitter>)").messages(),
               ElementsAre("error: 'intensity' is (-1, 1, 1) [components of at least 0]"));
-  EXPECT_THAT(compile_emitter(R"(<emitter type="point"><rgb name="radiance" value="1"/></emitter>)").messages(),
-              ElementsAre("error: unused parameter 'radiance' of emitter 'point' [intensity, position, to_world]"));
-}
-
-TEST(PointEmitter, CannotBelongToAShape) {
-  EXPECT_THAT(compile_elements(kSensor + R"(<shape type="sphere"><emitter type="point"/></shape>)").messages(),
-              ElementsAre("error: emitter 'point' has no surface and cannot belong to a shape [area]"));
+  EXPECT_THAT(
+      compile_emitter(R"(<emitter type="point"><rgb name="radiance" value="1"/></emitter>)").messages(),
+      ElementsAre(
+          "error: unused parameter 'radiance' of emitter 'point' [intensity, position, sampling_weight, to_world]"));
 }
 
 TEST(AreaEmitter, ARectangleIsOneParallelogram) {
@@ -193,7 +190,7 @@ TEST(EmitterHost, BrokenShapesEmittersAreCheckedToo) {
                                          R"(<emitter type="area"><float name="power" value="1"/></emitter></shape>)")
                   .messages(),
               ElementsAre("error: 'radius' is 0 [a number above 0]",
-                          "error: unused parameter 'power' of emitter 'area' [radiance]"));
+                          "error: unused parameter 'power' of emitter 'area' [radiance, sampling_weight]"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <vector>
 
 #include "light/light_choice.h"
 
@@ -49,7 +50,8 @@ Cone unite(Cone a, Cone b) {
 }
 
 struct Cluster : LightBounds {
-  double power;
+  double power;   ///< each light's times its weight
+  double weight;  ///< of all lights
 };
 
 void extend(Cluster& a, const Cluster& b) {
@@ -57,12 +59,12 @@ void extend(Cluster& a, const Cluster& b) {
   a.lower = glm::min(a.lower, b.lower), a.upper = glm::max(a.upper, b.upper);
   a.axis = cone.axis, a.normals = cone.angle;
   a.emission = std::max(a.emission, b.emission);
-  a.power += b.power;
+  a.power += b.power, a.weight += b.weight;
 }
 
 Cluster no_lights() {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  return {{.lower = glm::dvec3(kFar), .upper = glm::dvec3(-kFar), .emission = 0}, 0};
+  return {{.lower = glm::dvec3(kFar), .upper = glm::dvec3(-kFar), .emission = 0}, 0, 0};
 }
 
 /// How far the lights of a node face a direction, from 0 to 1, in the mean over all directions: 1/4 of a plane.
@@ -99,7 +101,7 @@ class TreeBuilder {
     const Cluster all = bounds_of(0, order_.size());
     const double diameter2 = glm::dot(all.upper - all.lower, all.upper - all.lower);
     radius2_ = diameter2 > 0 ? diameter2 / 4 : 1;
-    total_ = all.power;
+    total_ = all.power, total_weight_ = all.weight;
     fill(0, kNone, 0, order_.size());
   }
 
@@ -115,7 +117,7 @@ class TreeBuilder {
 
   void fill(std::uint32_t index, std::uint32_t parent, std::size_t begin, std::size_t end) {
     const Cluster bounds = bounds_of(begin, end);
-    LightNode node = make_node(bounds, static_cast<double>(end - begin) / static_cast<double>(order_.size()));
+    LightNode node = make_node(bounds);
     node.parent = parent;
     if (end - begin == 1) {
       const std::uint32_t light = lights_[order_[begin]];
@@ -132,8 +134,7 @@ class TreeBuilder {
     fill(node.content + 1, index, split, end);
   }
 
-  /// `share` of all lights are below it.
-  LightNode make_node(const Cluster& b, double share) const {
+  LightNode make_node(const Cluster& b) const {
     const glm::dvec3 center = (b.lower + b.upper) / 2.0, half = (b.upper - b.lower) / 2.0;
     const double radius2 = std::max(glm::dot(half, half), kSmallest * kSmallest * radius2_);
     const double emission = std::max(b.emission, kNarrowest), dark = std::cos(emission);
@@ -149,7 +150,7 @@ class TreeBuilder {
     node.shift = static_cast<float>(dark / (1 - dark));
     // The lights' power, as if all shone alike, into where they face; in units of the whole, which stay in a float's
     // range at any scale.
-    const double power = (1 - kEven) * b.power / total_ + kEven * share;
+    const double power = (1 - kEven) * b.power / total_ + kEven * b.weight / total_weight_;
     node.intensity = static_cast<float>(power / mean_facing(b.normals, emission) * radius2_);
     return node;
   }
@@ -202,8 +203,33 @@ class TreeBuilder {
   Array<Cluster> bounds_;
   Array<std::uint32_t> lights_;  ///< their indices in the tables
   Array<std::uint32_t> order_;
-  double radius2_ = 1, total_ = 1;
+  double radius2_ = 1, total_ = 1, total_weight_ = 1;
 };
+
+/// The alias table of the lights around the scene, by their shares, and of the tree, which has those of all the others.
+void fill_lights_around(SceneTables& tables, std::span<const LightPower> lights) {
+  const std::vector<double> all_shares = shares_of_choice(lights);
+  std::vector<LightRecord> cells;
+  std::vector<double> shares;
+  double of_tree = 0;
+  for (std::uint32_t i = 0; i < lights.size(); ++i) {
+    if (!(lights[i].per_cross_section > 0)) {
+      of_tree += all_shares[i];
+    } else if (all_shares[i] > 0) {
+      tables.lights_around.push_back({i, kNone, 1, 1});
+      shares.push_back(all_shares[i]);
+    }
+  }
+  tables.lights_around.push_back({kNone, kNone, 1, 1});
+  shares.push_back(of_tree);
+  cells.resize(shares.size());
+  fill_alias_table(cells, shares);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    AroundLight& cell = tables.lights_around[i];
+    cell.alias = tables.lights_around[cells[i].alias].light;
+    cell.keep = cells[i].alias_prob, cell.prob = cells[i].prob;
+  }
+}
 
 }  // namespace
 
@@ -213,11 +239,11 @@ void build_light_tree(SceneTables& tables, std::span<const LightPower> lights) {
   Array<Cluster> bounds;
   Array<std::uint32_t> indices;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    if (lights[i].per_cross_section > 0) tables.lights_around.push_back(i);
-    if (!(lights[i].own > 0)) continue;
-    bounds.push_back({lights[i].bounds, lights[i].own});
+    if (!(lights[i].own > 0 && lights[i].weight > 0)) continue;
+    bounds.push_back({lights[i].bounds, lights[i].own * lights[i].weight, lights[i].weight});
     indices.push_back(i);
   }
+  fill_lights_around(tables, lights);
   if (!indices.empty()) TreeBuilder(tables, std::move(bounds), std::move(indices)).build();
 }
 

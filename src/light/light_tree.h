@@ -1,6 +1,6 @@
 // Choosing among many lights by where the reference point is: down a binary tree over the lights that have a place,
 // each time to a child by what its lights might send there, told from their bounds. Lights that surround the scene
-// stand beside the tree and keep their shares.
+// stand beside the tree and keep their shares (an alias table).
 //
 // Source      Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018: the
 //             importance of a node (section 4), bounds and tree; one light by one path down the tree as in Pharr, Jakob,
@@ -67,9 +67,9 @@ NORRSKEN_INLINE Float child_prob(Float a, Float b) {
   return select(sum > Float(0.0f), a / sum, Float(0.5f));
 }
 
-/// The share of the tree and of each light around the scene.
+/// The share of the tree beside the lights around the scene.
 NORRSKEN_INLINE Float tree_share(const SceneView& scene) {
-  return Float(1.0f / static_cast<float>(scene.lights_around_count + 1));
+  return Float(scene.lights_around[scene.lights_around_count - 1].prob);
 }
 
 struct PickedLight {
@@ -81,13 +81,20 @@ struct PickedLight {
 inline PickedLight pick_light_by_place(const SceneView& scene, Vec3f reference, Vec2f u, Mask active) {
   UInt around(0u);
   Mask in_tree = active;
-  if (scene.lights_around_count > 0) {
+  if (scene.lights_around_count > 1) {
     const auto count = static_cast<float>(scene.lights_around_count);
-    const Float scaled = u.x * Float(count + 1);
-    const UInt cell = to_uint(min(scaled, Float(count)));
-    in_tree &= cell == UInt(scene.lights_around_count);
-    around = gather_uint(reinterpret_cast<const float*>(scene.lights_around), cell, active & !in_tree);
+    const Float scaled = u.x * Float(count);
+    const UInt cell = to_uint(min(scaled, Float(count - 1)));
     u.x = scaled - to_float(cell);
+    const auto* base = reinterpret_cast<const float*>(scene.lights_around);
+    const UInt first = cell * UInt(sizeof(AroundLight) / sizeof(float));
+    const Float keep = gather(base + offsetof(AroundLight, keep) / sizeof(float), first, active);
+    const Mask kept = (u.x < keep) | (keep >= Float(1.0f));
+    around = select(kept, gather_uint(base + offsetof(AroundLight, light) / sizeof(float), first, active),
+                    gather_uint(base + offsetof(AroundLight, alias) / sizeof(float), first, active));
+    in_tree &= around == UInt(kNone);
+    const Float rest = select(kept, u.x / keep, (u.x - keep) / (Float(1.0f) - keep));
+    u.x = min(rest, Float(0x1.fffffep-1f));
   }
   constexpr std::size_t kContent = offsetof(LightNode, content);
   UInt content = bits(gather_node(scene, kContent, UInt(0u), in_tree));

@@ -71,6 +71,12 @@ std::string mixed_lights(int count) {
 }
 const std::string kAround = R"(<emitter type="constant"/><emitter type="directional"/>)";
 
+/// The environment is chosen three times as often as those with a place together, the directions seldom.
+const std::string kWeighted = R"(<emitter type="constant"><float name="sampling_weight" value="3"/></emitter>)"
+                              R"(<emitter type="directional"><float name="sampling_weight" value="0.01"/></emitter>)"
+                              R"(<emitter type="directional"><float name="sampling_weight" value="0.25"/></emitter>)"
+                              R"(<emitter type="point"><float name="sampling_weight" value="20"/></emitter>)";
+
 class ManyLights : public ::testing::TestWithParam<std::string> {
  protected:
   LitScene scene_{mixed_lights(140) + GetParam()};
@@ -79,8 +85,9 @@ class ManyLights : public ::testing::TestWithParam<std::string> {
     return double{light_prob_by_place(scene_.view, UInt(light), lanes(reference), kOn).v};
   }
 };
-INSTANTIATE_TEST_SUITE_P(, ManyLights, ::testing::Values("", kAround),
-                         [](const auto& set) { return set.param.empty() ? "alone" : "with_lights_around"; });
+INSTANTIATE_TEST_SUITE_P(, ManyLights, ::testing::Values("", kAround, kWeighted), [](const auto& set) {
+  return set.param.empty() ? "alone" : set.param == kAround ? "with_lights_around" : "weighted";
+});
 
 TEST_P(ManyLights, ProbabilitiesSumToOneEverywhere) {
   ASSERT_NE(scene_.view.light_nodes, nullptr);
@@ -296,6 +303,18 @@ TEST(LightTree, NodesBoundWhatIsBelow) {
     for (const std::uint32_t k : {node.content, node.content + 1}) EXPECT_EQ(nodes.at(k).parent, i);
   }
   for (const int n : leaves) EXPECT_EQ(n, 1);
+}
+
+TEST(LightTree, NeverChoosesWhatHasNoWeight) {
+  const TreeScene tree(
+      R"(<emitter type="point"/><emitter type="point"/><emitter type="directional"/><emitter type="directional"/>)",
+      {{.own = 1}, {.own = 4, .weight = 0}, {.per_cross_section = 1, .weight = 0}, {.per_cross_section = 1}});
+  const SceneTables& t = tree.scene.compiled.scene->tables;
+  EXPECT_EQ(t.light_nodes.size(), 1u);
+  EXPECT_EQ(t.light_leaves[1], kNone);
+  ASSERT_EQ(t.lights_around.size(), 2u);
+  EXPECT_EQ(t.lights_around[0].light, 3u);
+  EXPECT_EQ(t.lights_around[0].prob, 0.5f);
 }
 
 }  // namespace

@@ -11,8 +11,7 @@
 
 namespace norrsken {
 
-void compile_emitter_point(Parameters& p, Builder& builder, std::uint32_t shape) {
-  refuse_shape(p, shape, "has no surface");
+void compile_emitter_point(Parameters& p, Builder& builder, std::uint32_t /*shape*/) {
   if (p.has("position") && p.has("to_world")) {
     p.error("to_world", "emitter 'point' has both 'position' and 'to_world'", "one of them");
   }

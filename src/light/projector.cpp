@@ -21,8 +21,7 @@
 
 namespace norrsken {
 
-void compile_emitter_projector(Parameters& p, Builder& builder, std::uint32_t shape) {
-  refuse_shape(p, shape, "has no surface");
+void compile_emitter_projector(Parameters& p, Builder& builder, std::uint32_t /*shape*/) {
   const std::optional<Texture> texture = slide_texture(p, builder, "irradiance");
   glm::dvec3 irradiance(1);
   if (!texture) irradiance = p.color("irradiance", glm::dvec3(1), 0, kMaxEmission, /*emission=*/true);

@@ -12,7 +12,7 @@ namespace norrsken {
 namespace {
 
 /// Of the sections' contents; another one says that the file is of another program.
-constexpr std::uint32_t kFormatVersion = 2;
+constexpr std::uint32_t kFormatVersion = 3;
 
 constexpr std::uint64_t kLongestTraits = 1 << 20, kLongestForm = 1 << 20;
 constexpr std::uint32_t kLargestSide = 65536;

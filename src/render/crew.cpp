@@ -119,7 +119,7 @@ Crew::Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, Work&
       cancelled_(cancelled),
       samples_done_(work.samples_done()) {
   feature_scene_.features = film_view_.feature_mask;
-  feature_scene_.needs_uv = scene.needs_uv || (film_view_.feature_mask & kUvFeatures) != 0;
+  feature_scene_.needs_uv = scene.needs_uv || (film_view_.feature_mask & (kUvFeatures | kNormalFeatures)) != 0;
 }
 
 Crew::~Crew() = default;
@@ -129,14 +129,17 @@ TileGrid Crew::grid(const SceneView& scene, std::uint32_t width, std::uint32_t h
 }
 
 void Crew::run_features(const Tick& tick) {
-  for (const WorkPlan& plan : plan_passes(work_.grid, work_.feature_samples)) {
+  const TileProgress& progress = work_.feature_progress;
+  const WorkPlan::Cut cut = cut_for(work_.grid, work_.feature_samples, progress, progress);
+  for (const WorkPlan& plan : plan_passes(work_.grid, work_.feature_samples, cut)) {
     if (!run_pass(Pass::features, plan, tick)) return;
   }
 }
 
 void Crew::run(const Tick& tick) {
   const Pass pass = scene_.integrator.from_lights ? Pass::particles : Pass::radiance;
-  for (const WorkPlan& plan : plan_passes(work_.grid, work_.samples)) {
+  const WorkPlan::Cut cut = cut_for(work_.grid, work_.samples, work_.goal.of_tile, work_.progress);
+  for (const WorkPlan& plan : plan_passes(work_.grid, work_.samples, cut)) {
     if (!run_pass(pass, plan, tick)) return;
   }
 }

@@ -105,6 +105,7 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   }
   view.any_resolved = view.bsdf_kinds >> kModelCount != 0;
   if (view.any_resolved) view.bsdf_kinds |= tables.bsdf_kinds | 1u << static_cast<std::uint32_t>(BsdfKind::absorb);
+  view.refracts = (view.bsdf_kinds & kRefractingKinds) != 0;
   const bool samples_lights = !tables.lights.empty() && tables.integrator.emitter_samples > 0;
   if (view.any_resolved && samples_lights && tables.material_choices <= kMostListedChoices) {
     view.material_codes = 1u << tables.material_choices;

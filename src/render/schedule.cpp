@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdlib>
+#include <iterator>
 #include <utility>
 
 namespace norrsken {
@@ -11,9 +12,9 @@ namespace {
 /// Whole waves of samples, and whole sets of replicates where there is no time for those.
 constexpr std::uint32_t kBlock = 16, kSmallBlock = kReplicates;
 
-/// With fewer regions a region's own noise would be felt in its own number of samples.
-constexpr std::size_t kFewestRegions = 64;
-/// No region gets more than so many times the mean: spots of noise must not draw all samples to their surroundings.
+/// With fewer tiles a tile's own noise would be felt in its own number of samples.
+constexpr std::size_t kFewestTiles = 64;
+/// No tile gets more than so many times the mean: spots of noise must not draw all samples to their surroundings.
 constexpr std::uint32_t kGreatestShare = 16;
 
 /// Of what a prediction says, so that it comes true.
@@ -63,8 +64,7 @@ std::uint32_t SampleSchedule::next_mean(const FilmError& error, std::uint32_t re
   if (target_error_ > 0) {
     const RelativeError now = error.relative();
     // The upper end, so that the true error is as small as that, too.
-    const bool is_dark = now.value < 0 && error.channels > 0;
-    if ((now.value >= 0 && now.high <= target_error_) || (is_dark && reached >= kDarkSamples)) return reached;
+    if (now.value >= 0 ? now.high <= target_error_ : reached >= kDarkSamples) return reached;
     const double ratio = now.value > 0 ? now.high / target_error_ : 2;
     const double needed = std::ceil(reached * ratio * ratio / kBlock) * kBlock;
     if (needed < mean) mean = std::max(static_cast<std::uint32_t>(needed), reached + 1);
@@ -127,75 +127,76 @@ Outlook SampleSchedule::outlook(double seconds, const RelativeError& error, doub
 
 namespace {
 
-/// Tiles whose waves are the same: those are given samples together.
-struct Region {
-  double pixels = 0, variance = 0;
-  std::uint32_t floor = 0;  ///< samples that it will have anyway
-  double deviation = 0;     ///< of one sample, after its neighbours
-};
+/// The neighbours of a tile by how many rows of tiles they are away, in its own column of tiles and in those beside it.
+constexpr double kRowWeights[] = {0.3, 1, 0.5};
+constexpr double kBesideWeight = 0.2;
 
-/// Regions up to so many columns and rows away; they are 16 x 4 pixels.
-constexpr std::int64_t kReachX = 1, kReachY = 4;
-
-/// Each region's deviation from the mean variance of those around it.
-void set_deviations(std::vector<Region>& regions, std::int64_t columns) {
-  const std::int64_t rows = static_cast<std::int64_t>(regions.size()) / columns;
+/// Each tile's deviation of one sample, from the mean variance of those around it.
+std::vector<double> deviations_around(const TileGrid& grid, const std::vector<double>& variances) {
+  const auto columns = static_cast<std::int64_t>(grid.columns), rows = static_cast<std::int64_t>(grid.rows);
+  constexpr std::int64_t kReach = std::size(kRowWeights) - 1;
+  std::vector<double> deviations(variances.size());
   for (std::int64_t y = 0; y < rows; ++y) {
     for (std::int64_t x = 0; x < columns; ++x) {
-      double variance = 0, pixels = 0;
-      for (std::int64_t v = std::max<std::int64_t>(y - kReachY, 0); v <= std::min(y + kReachY, rows - 1); ++v) {
-        for (std::int64_t u = std::max<std::int64_t>(x - kReachX, 0); u <= std::min(x + kReachX, columns - 1); ++u) {
+      double variance = 0, weights = 0;
+      for (std::int64_t v = std::max<std::int64_t>(y - kReach, 0); v <= std::min(y + kReach, rows - 1); ++v) {
+        for (std::int64_t u = std::max<std::int64_t>(x - 1, 0); u <= std::min(x + 1, columns - 1); ++u) {
           if (u == x && v == y) continue;
-          const Region& other = regions[static_cast<std::size_t>(v * columns + u)];
-          variance += other.variance * other.pixels;
-          pixels += other.pixels;
+          const auto other = static_cast<std::size_t>(v * columns + u);
+          const double weight =
+              static_cast<double>(grid.pixels_of(other)) * kRowWeights[std::abs(v - y)] * (u == x ? 1 : kBesideWeight);
+          variance += weight * variances[other];
+          weights += weight;
         }
       }
-      regions[static_cast<std::size_t>(y * columns + x)].deviation = pixels > 0 ? std::sqrt(variance / pixels) : 0;
+      if (weights > 0) deviations[static_cast<std::size_t>(y * columns + x)] = std::sqrt(variance / weights);
     }
   }
-}
-
-std::uint32_t share(const Region& region, double scale, double most) {
-  const double samples = std::min(scale * region.deviation, most);
-  return std::max(region.floor, round_down(static_cast<std::uint32_t>(samples), kBlock));
+  return deviations;
 }
 
 }  // namespace
 
 SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const SampleGoal& reached, std::uint32_t mean) {
-  const WorkPlan plan(grid, {kBlock, std::numeric_limits<std::uint32_t>::max()}, 0);
-  std::vector<Region> regions(plan.area_count());
-  double budget = 0;
-  for (std::uint64_t i = 0; i < plan.area_count(); ++i) {
-    const WaveJob job = plan.wave(i);
-    const FilmError error = film.error({job.x0, job.y0, job.width, job.height});
-    const std::uint32_t samples = plan.progress_of(i, reached.of_tile);
-    Region& region = regions[i];
-    region.pixels = job.pixel_count();
-    if (error.channels > 0) region.variance = samples * error.variance_sum / static_cast<double>(error.channels);
-    region.floor = std::max(samples, round_down(mean / 4, kBlock));
-    budget += region.pixels * mean;
+  const std::size_t tiles = grid.tile_count();
+  std::vector<double> variances(tiles);
+  for (std::size_t tile = 0; tile < tiles; ++tile) {
+    const FilmError error = film.error(grid.region_of(tile));
+    if (error.channels > 0) variances[tile] = error.sample_variance_sum / static_cast<double>(error.channels);
   }
-  if (regions.size() < kFewestRegions) return SampleGoal::uniform(grid, mean, true).and_at_least(reached.of_tile);
-  set_deviations(regions, plan.areas_per_row());
+  const std::vector<double> deviations = deviations_around(grid, variances);
+  double budget = 0, deviation_sum = 0, pixels = 0;
+  for (std::size_t tile = 0; tile < tiles; ++tile) {
+    const auto of_tile = static_cast<double>(grid.pixels_of(tile));
+    pixels += of_tile;
+    budget += of_tile * mean;
+    deviation_sum += of_tile * deviations[tile];
+  }
+  if (tiles < kFewestTiles || !(deviation_sum > 0)) {
+    return SampleGoal::uniform(grid, mean, true).and_at_least(reached.of_tile);
+  }
+  const double mean_deviation = deviation_sum / pixels;
   const double most = std::min(static_cast<double>(kGreatestShare) * mean, 1e9);
+  const auto share = [&](std::size_t tile, double scale) {
+    const double samples = std::min(scale * (mean_deviation + deviations[tile]), most);
+    return std::max(reached.of_tile[tile], round_down(static_cast<std::uint32_t>(samples) + kBlock / 2, kBlock));
+  };
 
   // The greatest scale whose samples are no more than asked for.
   const auto cost = [&](double scale) {
     double samples = 0;
-    for (const Region& region : regions) samples += region.pixels * share(region, scale, most);
+    for (std::size_t tile = 0; tile < tiles; ++tile)
+      samples += static_cast<double>(grid.pixels_of(tile)) * share(tile, scale);
     return samples;
   };
-  double low = 0, high = 1;
-  while (cost(high) < budget && high < 1e30) high *= 2;
+  double low = 0, high = mean / mean_deviation;
+  while (cost(high) < budget && high < 1e300) high *= 2;
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;
     (cost(middle) <= budget ? low : high) = middle;
   }
   SampleGoal goal{mean, reached.of_tile, true};
-  for (std::uint64_t i = 0; i < plan.area_count(); ++i)
-    plan.set_progress_of(i, share(regions[i], low, most), goal.of_tile);
+  for (std::size_t tile = 0; tile < tiles; ++tile) goal.of_tile[tile] = share(tile, low);
   return goal;
 }
 

@@ -67,11 +67,13 @@ class SampleSchedule {
   bool adaptive_, by_steps_;
 };
 
-/// Neyman's allocation (1934; Cochran, Sampling Techniques, 5.5) of more samples: a tile gets as many as the standard
-/// deviation of one sample asks for, but not fewer than a quarter of the mean or than it has. That deviation is one of the
-/// tiles around, never of the tile itself: a number of samples that depended on their values would pull the image down
-/// where dark samples came first (Kirk and Arvo, Unbiased Sampling Techniques for Image Synthesis, 1991). What it has is still
-/// felt through the budget that all share, the less the more tiles there are; with few, all get the same.
+/// More samples, for tiles of 16 pixels. Half of them are spread evenly, which bounds what can be lost where noise is not
+/// foreseen: nowhere is the variance more than twice that of even samples. The other half follows Neyman's allocation (1934;
+/// Cochran, Sampling Techniques, 5.5): in proportion to the standard deviation of one sample. That deviation is one of the
+/// tiles around, the row of pixels above and below first of all, and never of the tile itself: a number of samples that
+/// depended on their values would pull the image down where dark samples came first (Kirk and Arvo, Unbiased Sampling
+/// Techniques for Image Synthesis, 1991). What a tile has is still felt through the budget that all share, the less the more
+/// tiles there are; with few, all get the same. No tile loses what it has.
 SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const SampleGoal& reached, std::uint32_t mean);
 
 }  // namespace norrsken

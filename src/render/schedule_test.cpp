@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kWidth = 160, kHeight = 60, kTaken = 16;
 
-/// Tiles of 16 x 4 pixels with 16 independent samples each, whose deviations are given by tile.
+/// Tiles of 16 x 1 pixels with 16 independent samples each, whose deviations are given by tile.
 class Allocation : public ::testing::Test {
  protected:
   Allocation() : grid_(kWidth, kHeight, 1024), film_(settings(), SamplerKind::independent) {}
@@ -41,7 +41,8 @@ class Allocation : public ::testing::Test {
     const SampleGoal reached = SampleGoal::uniform(grid_, kTaken, true);
     SampleGoal goal = allocate_samples(grid_, film_, reached, mean);
     EXPECT_LE(goal.total(grid_), std::uint64_t{mean} * kWidth * kHeight);
-    for (std::size_t i = 0; i < goal.of_tile.size(); ++i) EXPECT_GE(goal.of_tile[i], std::max(kTaken, mean / 4)) << i;
+    for (std::size_t i = 0; i < goal.of_tile.size(); ++i)
+      EXPECT_GE(goal.of_tile[i], std::max(kTaken, mean / 2 - 16)) << i;
     return goal;
   }
 
@@ -49,17 +50,17 @@ class Allocation : public ::testing::Test {
   Film film_;
 };
 
-TEST_F(Allocation, GoesWithTheDeviation) {
-  ASSERT_EQ(grid_.tile_height, 4u);
+TEST_F(Allocation, HalfOfItGoesWithTheDeviation) {
+  ASSERT_EQ(grid_.tile_height, 1u);
   std::vector<double> deviations(grid_.tile_count(), 1);
   for (std::uint32_t row = 0; row < grid_.rows; ++row) {
     for (std::uint32_t column = 0; column < grid_.columns / 2; ++column) deviations[tile(column, row)] = 3;
   }
   take_samples(deviations);
   const SampleGoal goal = allocate(512);
-  // Half of the tiles get three times as many: 256 and 768, in blocks of 16.
-  EXPECT_NEAR(goal.of_tile[tile(1, 7)], 768, 32);
-  EXPECT_NEAR(goal.of_tile[tile(8, 7)], 256, 32);
+  // Half of the tiles get three times as many of 256: 256 + 384 and 256 + 128, in blocks of 16.
+  EXPECT_NEAR(goal.of_tile[tile(1, 7)], 640, 16);
+  EXPECT_NEAR(goal.of_tile[tile(8, 7)], 384, 16);
   EXPECT_GT(static_cast<double>(goal.total(grid_)), 0.95 * 512 * kWidth * kHeight);
 }
 
@@ -77,19 +78,28 @@ TEST_F(Allocation, IsDecidedByTheNeighbors) {
   EXPECT_GT(goal.of_tile[tile(4, 7)], even.of_tile[tile(4, 7)]);
 }
 
-TEST_F(Allocation, NoNoiseNeedsNoMoreThanTheLeast) {
-  take_samples(std::vector<double>(grid_.tile_count(), 0));
-  const SampleGoal goal = allocate(128);
-  EXPECT_TRUE(std::ranges::all_of(goal.of_tile, [](std::uint32_t n) { return n == 32; }));
+/// A spot of five rows of one column, as a caustic is in a small image: it is found although no other column has any of it.
+TEST_F(Allocation, FindsASpotOfAFewRows) {
+  std::vector<double> deviations(grid_.tile_count(), 1);
+  for (std::uint32_t row = 20; row < 25; ++row) deviations[tile(5, row)] = 30;
+  take_samples(deviations);
+  const SampleGoal goal = allocate(64);
+  for (std::uint32_t row = 20; row < 25; ++row) EXPECT_GT(goal.of_tile[tile(5, row)], 200u) << row;
 }
 
-TEST_F(Allocation, NoRegionGetsMoreThanSixteenTimesTheMean) {
+TEST_F(Allocation, WithoutNoiseItIsEven) {
+  take_samples(std::vector<double>(grid_.tile_count(), 0));
+  const SampleGoal goal = allocate(128);
+  EXPECT_TRUE(std::ranges::all_of(goal.of_tile, [](std::uint32_t n) { return n == 128; }));
+}
+
+TEST_F(Allocation, NoTileGetsMoreThanSixteenTimesTheMean) {
   std::vector<double> deviations(grid_.tile_count(), 1e-6);
   deviations[tile(5, 7)] = 1;
   take_samples(deviations);
   const SampleGoal goal = allocate(64);
   EXPECT_LE(goal.most(), 16u * 64u);
-  EXPECT_EQ(goal.of_tile[tile(5, 8)], goal.of_tile[tile(4, 7)]);
+  EXPECT_EQ(goal.of_tile[tile(5, 8)], goal.of_tile[tile(5, 6)]);
 }
 
 class Schedule : public Allocation {

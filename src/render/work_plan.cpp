@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "film/film.h"
+
 namespace norrsken {
 namespace {
 
@@ -17,28 +19,33 @@ TileGrid::TileGrid(std::uint32_t image_width, std::uint32_t image_height, std::u
       height(image_height),
       slots(std::max(slots_per_wave, kMaxLanes)),
       longest_block(std::min(kSamplesPerWave, slots / kMaxLanes)) {
-  // As wide as a register, so that lanes are neighbours, and as high as the slots allow.
-  const std::uint32_t pixels = slots / longest_block / kMaxLanes * kMaxLanes;
   tile_width = std::min(width, kMaxLanes);
-  tile_height = std::clamp(pixels / tile_width, 1u, height);
+  tile_height = std::clamp(kMaxLanes / tile_width, 1u, height);
   columns = divide_up(width, tile_width);
   rows = divide_up(height, tile_height);
 }
 
-std::uint64_t TileGrid::pixels_of(std::uint64_t tile) const {
+FilmRegion TileGrid::region_of(std::uint64_t tile) const {
   const auto x = static_cast<std::uint32_t>(tile % columns) * tile_width;
   const auto y = static_cast<std::uint32_t>(tile / columns) * tile_height;
-  return std::uint64_t{std::min(tile_width, width - x)} * std::min(tile_height, height - y);
+  return {x, y, std::min(tile_width, width - x), std::min(tile_height, height - y)};
 }
 
-WorkPlan::WorkPlan(const TileGrid& grid, SampleRange numbers, std::uint32_t origin)
+std::uint64_t TileGrid::pixels_of(std::uint64_t tile) const {
+  const FilmRegion region = region_of(tile);
+  return std::uint64_t{region.width} * region.height;
+}
+
+WorkPlan::WorkPlan(const TileGrid& grid, SampleRange numbers, std::uint32_t origin, Cut cut)
     : grid_(grid), numbers_(numbers), origin_(origin) {
-  block_ = std::clamp(numbers.count(), 1u, grid.longest_block);
-  // Short blocks take several tiles. A power of two of them, so that the areas of other passes lie within each other.
   const WaveJob tile{.width = grid.tile_width, .height = grid.tile_height};
-  const std::uint32_t tiles = std::bit_floor(std::max(grid.slots / (tile.pixel_stride() * block_), 1u));
+  const std::uint32_t slots_of_tile = grid.slots / tile.pixel_stride();
+  const bool is_single = cut == Cut::single_tiles;
+  block_ = std::clamp(numbers.count(), 1u, is_single ? slots_of_tile : grid.longest_block);
+  // A power of two of tiles, so that the areas of other passes lie within each other.
+  const std::uint32_t tiles = is_single ? 1 : std::bit_floor(std::max(slots_of_tile / block_, 1u));
   // Waves are numbered in 64 bits, a wave's slots in few: wide areas are two registers wide.
-  constexpr std::uint32_t kManyTiles = 16;
+  constexpr std::uint32_t kManyTiles = 64;
   area_columns_ = tiles >= kManyTiles && grid.columns > 1 ? 2 : 1;
   area_rows_ = tiles / area_columns_;
   areas_x_ = divide_up(grid.columns, area_columns_);
@@ -102,16 +109,30 @@ WaveJob WorkPlan::remaining(WaveJob job, std::uint32_t done, std::uint32_t goal)
   return job;
 }
 
-std::vector<WorkPlan> plan_passes(const TileGrid& grid, SampleRange samples) {
+std::vector<WorkPlan> plan_passes(const TileGrid& grid, SampleRange samples, WorkPlan::Cut cut) {
   std::vector<WorkPlan> passes;
   std::uint32_t first = 0;
-  for (const std::uint32_t end : {1u, grid.longest_block, samples.count()}) {
+  const auto pass_up_to = [&](std::uint32_t end) {
     const SampleRange numbers{first, std::min(end, samples.count())};
-    if (numbers.end <= numbers.first) continue;
-    passes.emplace_back(grid, numbers, samples.first);
+    if (numbers.end <= numbers.first) return;
+    const bool is_first_block = first < grid.longest_block;
+    passes.emplace_back(grid, numbers, samples.first, is_first_block ? WorkPlan::Cut::groups_of_tiles : cut);
     first = numbers.end;
-  }
+  };
+  for (std::uint32_t end = 1; end < grid.longest_block; end *= 2) pass_up_to(end);
+  pass_up_to(grid.longest_block);
+  pass_up_to(samples.count());
   return passes;
+}
+
+WorkPlan::Cut cut_for(const TileGrid& grid, SampleRange samples, const TileProgress& goal,
+                      const TileProgress& progress) {
+  for (const WorkPlan& plan : plan_passes(grid, samples)) {
+    for (std::uint64_t area = 0; area < plan.area_count(); ++area) {
+      if (!plan.is_even(area, goal) || !plan.is_even(area, progress)) return WorkPlan::Cut::single_tiles;
+    }
+  }
+  return WorkPlan::Cut::groups_of_tiles;
 }
 
 bool is_possible(const TileGrid& grid, SampleRange samples, const TileProgress& goal, const TileProgress& progress) {
@@ -119,7 +140,7 @@ bool is_possible(const TileGrid& grid, SampleRange samples, const TileProgress& 
   for (std::size_t tile = 0; tile < progress.size(); ++tile) {
     if (progress[tile] > goal[tile] || goal[tile] > samples.count()) return false;
   }
-  for (const WorkPlan& pass : plan_passes(grid, samples)) {
+  for (const WorkPlan& pass : plan_passes(grid, samples, WorkPlan::Cut::single_tiles)) {
     for (std::uint64_t area = 0; area < pass.area_count(); ++area) {
       if (!pass.is_even(area, progress)) return false;
     }

@@ -10,12 +10,15 @@
 
 namespace norrsken {
 
-/// The image in tiles of a fixed size, by which it is known how far it has come. Tiles are as large as waves of the
-/// longest blocks of samples allow, whatever the number of samples.
+struct FilmRegion;
+
+/// The image in tiles of a fixed size, by which it is known how far it has come. A tile is a register of pixels, so that
+/// lanes are neighbours and samples can be many in one row and few in the next.
 struct TileGrid {
   TileGrid(std::uint32_t image_width, std::uint32_t image_height, std::uint32_t slots_per_wave);
 
   std::uint64_t tile_count() const { return std::uint64_t{columns} * rows; }
+  FilmRegion region_of(std::uint64_t tile) const;
   std::uint64_t pixels_of(std::uint64_t tile) const;
 
   std::uint32_t width, height;  ///< of the image
@@ -31,12 +34,14 @@ using TileProgress = std::vector<std::uint32_t>;
 /// Consecutive samples of all pixels, cut into waves: blocks of samples times rectangles of tiles.
 class WorkPlan {
  public:
+  /// A wave takes tiles that have come equally far together, or several blocks of one tile.
+  enum class Cut { groups_of_tiles, single_tiles };
+
   /// Of the samples that are rendered those that are number `first` to `end` - 1, counted from the sample `origin`.
-  WorkPlan(const TileGrid& grid, SampleRange numbers, std::uint32_t origin);
+  WorkPlan(const TileGrid& grid, SampleRange numbers, std::uint32_t origin, Cut cut = Cut::groups_of_tiles);
 
   std::uint64_t wave_count() const { return blocks_ * areas_; }
   std::uint64_t area_count() const { return areas_; }
-  std::uint32_t areas_per_row() const { return areas_x_; }
   std::uint64_t area_of(std::uint64_t wave) const { return wave % areas_; }
   std::uint64_t block_of(std::uint64_t wave) const { return wave / areas_; }
   /// All areas take their first block of samples, then all their second, ...
@@ -66,12 +71,19 @@ class WorkPlan {
   std::uint64_t areas_, blocks_;
 };
 
-/// The passes in which samples are rendered. The first takes one sample of every pixel, so that an image that is
-/// interrupted early has no holes; the second completes the first block.
-std::vector<WorkPlan> plan_passes(const TileGrid& grid, SampleRange samples);
+/// The passes in which samples are rendered. The first takes one sample of every pixel, so that an image that is interrupted
+/// soon has no holes; the second another one, from when on the error of all is known; those that follow double what there
+/// is until the first block is complete.
+/// `cut` is that of what comes after the first block.
+std::vector<WorkPlan> plan_passes(const TileGrid& grid, SampleRange samples,
+                                  WorkPlan::Cut cut = WorkPlan::Cut::groups_of_tiles);
 
-/// Whether an image may have come so far on the way to `goal`: no tile has more, and those that come in one wave have come
-/// equally far.
+/// How to cut what is left: in groups where those have come, and are to come, equally far.
+WorkPlan::Cut cut_for(const TileGrid& grid, SampleRange samples, const TileProgress& goal,
+                      const TileProgress& progress);
+
+/// Whether an image may have come so far on the way to `goal`: no tile has more, and those that come in one wave of the first
+/// block have come equally far.
 bool is_possible(const TileGrid& grid, SampleRange samples, const TileProgress& goal, const TileProgress& progress);
 
 }  // namespace norrsken

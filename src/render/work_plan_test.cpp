@@ -27,14 +27,17 @@ class Film {
       : grid_(grid), next_(std::size_t{grid.width} * grid.height, first), progress_(grid.tile_count()) {}
 
   void take(SampleRange samples, std::uint64_t most = ~std::uint64_t{0}) {
-    for (const WorkPlan& plan : plan_passes(grid_, samples)) {
+    take_towards(TileProgress(grid_.tile_count(), samples.count()), samples, most);
+  }
+  void take_towards(const TileProgress& goal, SampleRange samples, std::uint64_t most) {
+    for (const WorkPlan& plan : plan_passes(grid_, samples, cut_for(grid_, samples, goal, progress_))) {
       for (std::uint64_t i = 0; i < plan.wave_count(); ++i) {
         const std::uint64_t area = plan.area_of(i);
         const std::uint32_t done = plan.progress_of(area, progress_);
         if (plan.block_of(i) < plan.blocks_done(done)) continue;
+        const WaveJob job = plan.remaining(plan.wave(i), done, plan.progress_of(area, goal));
+        if (job.sample_count == 0) continue;
         if (most-- == 0) return;
-        const WaveJob job = plan.remaining(plan.wave(i), done, samples.count());
-        EXPECT_GT(job.sample_count, 0u);
         EXPECT_LE(job.slot_count(), std::max(grid_.slots, kMaxLanes));
         take(job);
         plan.set_progress_of(area, plan.end_of(job), progress_);
@@ -101,6 +104,28 @@ TEST(WorkPlan, GoesOnFromAnywhere) {
   }
 }
 
+/// Goals of each tile's own, reached with interruptions: no wave is too large, and no tile has more than it is to have.
+TEST(WorkPlan, ReachesUnevenGoals) {
+  const TileGrid grid(70, 33, 1024);
+  std::mt19937 random(5);
+  Film film(grid, 0);
+  film.take(SampleRange{0, 16});
+  TileProgress goal = film.progress();
+  for (int round = 0; round < 3; ++round) {
+    for (std::uint32_t& samples : goal) samples += 16 * static_cast<std::uint32_t>(random() % 9);
+    const SampleRange samples{0, *std::ranges::max_element(goal)};
+    for (int part = 0; part < 4; ++part) {
+      film.take_towards(goal, samples, part < 3 ? random() % 60 : ~std::uint64_t{0});
+      EXPECT_TRUE(is_possible(grid, samples, goal, film.progress()));
+    }
+    EXPECT_EQ(film.progress(), goal);
+  }
+  for (std::uint64_t tile = 0; tile < grid.tile_count(); ++tile) {
+    const std::uint64_t pixel = tile / grid.columns * grid.width + tile % grid.columns * grid.tile_width;
+    EXPECT_EQ(film.next()[pixel], goal[tile]);
+  }
+}
+
 TEST(WorkPlan, FewerSamplesAreAskedForOnlyIfNoneHasMore) {
   const TileGrid grid(200, 150, 1024);
   Film film(grid, 0);
@@ -124,11 +149,14 @@ TEST(WorkPlan, KnowsWhatCannotBe) {
 TEST(WorkPlan, BeginsWithOneSampleOfEveryPixel) {
   const TileGrid grid(800, 800, 1024);
   const std::vector<WorkPlan> passes = plan_passes(grid, {0, 64});
-  ASSERT_EQ(passes.size(), 3u);
+  ASSERT_EQ(passes.size(), 6u);
   EXPECT_EQ(passes[0].wave_count(), 625u);
   for (std::uint64_t i = 0; i < passes[0].wave_count(); ++i) EXPECT_EQ(passes[0].wave(i).sample_count, 1u);
-  EXPECT_EQ(passes[1].wave(0).first_sample, 1u);
-  EXPECT_EQ(passes[1].wave(0).sample_count, 15u);
+  for (std::size_t pass = 1; pass < 5; ++pass) {
+    EXPECT_EQ(passes[pass].wave(0).first_sample, 1u << (pass - 1));
+    EXPECT_EQ(passes[pass].wave(0).sample_count, 1u << (pass - 1));
+  }
+  EXPECT_EQ(passes[5].wave(0).sample_count, 16u);
 }
 
 }  // namespace

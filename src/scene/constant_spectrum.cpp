@@ -28,20 +28,14 @@ namespace norrsken {
 namespace {
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
-constexpr double kMaxWavelength = 1e6;    // nm
-constexpr double kMaxTemperature = 1e12;  // K
+constexpr double kMaxWavelength = 1e6;  // nm
 
 using Value = decltype(Property::value);
 
 Value blackbody(Parameters& p) {
   p.require("temperature", "<float name=\"temperature\" value=\"5000\"/>");
   const double temperature = p.number("temperature", 5000, 0, kMaxTemperature, Ends::open_below);
-  Property::Spectrum spectrum;
-  for (std::size_t i = 0; i < kCieTable.size(); ++i) {
-    const double wavelength = kCieFirstWavelength + kCieStep * static_cast<double>(i);
-    spectrum.samples.emplace_back(wavelength, blackbody_radiance(wavelength, temperature));
-  }
-  return spectrum;
+  return blackbody_spectrum(temperature);
 }
 
 Value d65(Parameters& p) {
@@ -139,6 +133,15 @@ const Plugin* find(const Node& node) {
 bool is_spectrum_or_texture(const Node& node) { return node.kind == "spectrum" || node.kind == "texture"; }
 
 bool is_constant_spectrum(const Node& node) { return is_spectrum_or_texture(node) && find(node) != nullptr; }
+
+Property::Spectrum blackbody_spectrum(double temperature, double scale) {
+  Property::Spectrum spectrum;
+  for (std::size_t i = 0; i < kCieTable.size(); ++i) {
+    const double wavelength = kCieFirstWavelength + kCieStep * static_cast<double>(i);
+    spectrum.samples.emplace_back(wavelength, scale * blackbody_radiance(wavelength, temperature));
+  }
+  return spectrum;
+}
 
 Property read_constant_spectrum(Parameters& node) {
   Property property;

@@ -39,6 +39,9 @@ struct Property {
   std::string origin;            ///< for a complaint, where it is of `$parameters`: " (from '$fov', set by -Dfov=0)"
   SourceLocation location;       ///< of the value
   SourceLocation name_location;  ///< of the name
+  std::string written = {};      ///< the name that the file has, where it is an older one
+
+  const std::string& file_name() const { return written.empty() ? name : written; }
 };
 
 /// A plugin instance: `<bsdf type="diffuse" id="white"> ... </bsdf>`.
@@ -61,13 +64,20 @@ struct Node {
   std::vector<Child> children;
 };
 
+/// What an older scene says in other words: "'maxDepth' is 'max_depth'".
+struct SceneChange {
+  SourceLocation location;
+  std::string text;
+};
+
 /// A whole scene file with its includes, references and parameters resolved.
 struct Description {
   std::shared_ptr<const Node> scene;
-  /// Folders in which file names are looked up: beside the naming file is tried first (see `resolve_file`), then these.
+  /// Folders in which file names are looked up, in this order; after them beside the file that names them.
   std::vector<std::string> search_paths;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< those in use: `$name` and its final value
   MemoryReservation memory = {};                                ///< of all nodes
+  std::vector<SceneChange> changes = {};                        ///< of which scenes of old versions were in need
 };
 
 }  // namespace norrsken

@@ -14,7 +14,7 @@
 namespace norrsken {
 namespace {
 
-constexpr int kMaxKept = 100;  // errors, and as many warnings
+constexpr int kMaxKept = 100;  // of each severity
 constexpr int kTabStop = 4;
 constexpr int kMaxWidth = 100;  // columns of an excerpt
 constexpr std::string_view kEllipsis = "...";
@@ -100,16 +100,10 @@ std::pair<std::string, std::string> excerpt_and_mark(const SourceLocation& locat
   return {text, carets};
 }
 
-// "room.xml:6:36", as far as it is known.
-std::string place_text(const SourceLocation& location) {
-  std::string text = printable(location.file);
-  if (location.line > 0) text += fmt::format(":{}", location.line);
-  if (location.line > 0 && location.column > 0) text += fmt::format(":{}", location.column);
-  return text;
-}
-
 bool says_the_same(const Diagnostic& a, const Diagnostic& b) {
   const SourceLocation &x = a.location, &y = b.location;
+  // A note is about the scene, not about one place of it.
+  if (a.severity == Diagnostic::Severity::note && b.severity == a.severity) return a.message == b.message;
   return a.severity == b.severity && x.line == y.line && x.column == y.column && x.file == y.file &&
          a.message == b.message;
 }
@@ -124,6 +118,10 @@ void Diagnostics::warning(SourceLocation location, std::string message, std::str
   add({Diagnostic::Severity::warning, std::move(message), std::move(accepted), std::move(location)}, warning_count_);
 }
 
+void Diagnostics::note(SourceLocation location, std::string message, std::string accepted) {
+  add({Diagnostic::Severity::note, std::move(message), std::move(accepted), std::move(location)}, note_count_);
+}
+
 void Diagnostics::add(Diagnostic diagnostic, int& count) {
   if (count <= kMaxKept) {
     if (const auto place = named_at_.find(diagnostic.location.file); place != named_at_.end())
@@ -134,9 +132,8 @@ void Diagnostics::add(Diagnostic diagnostic, int& count) {
   if (count < kMaxKept) {
     all_.push_back(std::move(diagnostic));
   } else if (count == kMaxKept) {
-    const bool is_error = diagnostic.severity == Diagnostic::Severity::error;
     all_.push_back({diagnostic.severity,
-                    fmt::format("more than {} {}, the rest are left out", kMaxKept, is_error ? "errors" : "warnings"),
+                    fmt::format("more than {} {}s, the rest are left out", kMaxKept, name_of(diagnostic.severity)),
                     {},
                     {}});
   }
@@ -168,18 +165,43 @@ void Diagnostics::sort() {
   all_ = std::move(sorted);
 }
 
+std::string_view name_of(Diagnostic::Severity severity) {
+  switch (severity) {
+    case Diagnostic::Severity::error:
+      return "error";
+    case Diagnostic::Severity::warning:
+      return "warning";
+    default:
+      return "note";
+  }
+}
+
+std::string place_text(const SourceLocation& location) {
+  std::string text = printable(location.file);
+  if (location.line > 0) text += fmt::format(":{}", location.line);
+  if (location.line > 0 && location.column > 0) text += fmt::format(":{}", location.column);
+  return text;
+}
+
 std::string to_text(const Diagnostic& diagnostic) {
   const SourceLocation& location = diagnostic.location;
   std::string text;
   if (!location.file.empty()) text = place_text(location) + ": ";
-  text += diagnostic.severity == Diagnostic::Severity::error ? "error: " : "warning: ";
+  text += fmt::format("{}: ", name_of(diagnostic.severity));
   text += printable(diagnostic.message);
   if (location.line > 0 && !location.excerpt.empty()) {
     const auto [excerpt, mark] = excerpt_and_mark(location);
     text += fmt::format("\n{:5} | {}", location.line, excerpt);
     if (location.column > 0) text += fmt::format("\n      | {}", mark);
   }
-  if (!diagnostic.accepted.empty()) text += "\naccepted: " + printable(diagnostic.accepted);
+  if (diagnostic.accepted.empty()) return text;
+  text += "\naccepted:";
+  // Lines that follow the first are indented: none of them can be taken for another diagnostic.
+  std::string_view indent = " ";
+  for (const TextPiece& line : split(diagnostic.accepted, "\n")) {
+    text += fmt::format("{}{}", indent, printable(line.text));
+    indent = "\n    ";
+  }
   return text;
 }
 

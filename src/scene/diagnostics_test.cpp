@@ -129,6 +129,17 @@ TEST(Diagnostics, WhatIsSaidAgainIsKeptOnce) {
   EXPECT_EQ(diagnostics.all().size(), 6u);
 }
 
+TEST(Diagnostics, ANoteIsToldOnceWhereverItStands) {
+  Diagnostics diagnostics;
+  diagnostics.note(at(1, 2, 1, ""), "no effect");
+  diagnostics.note(in("other.xml", 7, 1), "no effect");
+  diagnostics.note(at(3, 2, 1, ""), "another");
+  diagnostics.warning(at(3, 2, 1, ""), "another");
+  EXPECT_FALSE(diagnostics.has_errors());
+  ASSERT_EQ(diagnostics.all().size(), 3u);
+  EXPECT_EQ(to_text(diagnostics.all()[0]), "room.xml:1:2: note: no effect");
+}
+
 TEST(Diagnostics, SortsByFileAndLine) {
   Diagnostics diagnostics;
   diagnostics.error({}, "nowhere");

@@ -1,5 +1,7 @@
 #include "scene/file_system.h"
 
+#include <fmt/format.h>
+
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -89,20 +91,31 @@ std::string normal_path(const std::string& path) {
   return std::filesystem::path(path).lexically_normal().string();
 }
 
-std::string resolve_file(const FileSystem& files, const std::string& name, const std::string& beside,
-                         const std::vector<std::string>& search_paths) {
+std::string resolve_file(const FileSystem& files, const std::string& name, const std::vector<std::string>& folders,
+                         std::string* other) {
   if (name.empty() || name.find('\0') != std::string::npos) return {};
   if (name.front() == '/' || is_builtin(name)) return files.exists(name) ? name : std::string();
-  if (const std::string path = folder_of(beside) + name; files.exists(path)) return path;
-  for (const std::string& folder : search_paths) {
+  std::string found;
+  for (const std::string& folder : folders) {
     const bool open = folder.empty() || folder.back() == '/' || folder == kBuiltin;
-    if (const std::string path = folder + (open ? "" : "/") + name; files.exists(path)) return path;
+    const std::string path = folder + (open ? "" : "/") + name;
+    if (!files.exists(path)) continue;
+    if (found.empty()) {
+      found = path;
+      if (!other) break;
+    } else if (normal_path(path) != normal_path(found)) {
+      *other = path;
+      break;
+    }
   }
-  return {};
+  return found;
 }
 
-std::string accepted_files(const std::string& name, const std::string& beside,
-                           const std::vector<std::string>& search_paths) {
+std::string two_files_of_one_name(const std::string& name, const std::string& found, const std::string& other) {
+  return fmt::format("{} is {} here, and there is {} too", quoted(name, 200), quoted(found, 200), quoted(other, 200));
+}
+
+std::string accepted_files(const std::string& name, const std::vector<std::string>& all_folders) {
   constexpr std::size_t kMaxPathBytes = 200;
   const auto builtin_below = [](const std::string& folder, std::size_t strip) {
     std::vector<std::string> found;
@@ -114,8 +127,8 @@ std::string accepted_files(const std::string& name, const std::string& beside,
   };
   if (is_builtin(name)) return builtin_below(std::string(kBuiltin), 0);
   if (name.starts_with('/')) return "the path of an existing file";
-  std::vector<std::string> folders{folder_of(beside)};
-  for (const std::string& folder : search_paths) {
+  std::vector<std::string> folders;
+  for (const std::string& folder : all_folders) {
     if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
   }
   std::string builtin;

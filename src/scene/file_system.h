@@ -42,13 +42,16 @@ std::string folder_of(const std::string& path);
 /// Without "." and "..", so that two spellings of one path compare equal; links are not followed.
 std::string normal_path(const std::string& path);
 
-/// `name` looked up beside `beside` (the file that names it), then in each of `search_paths`; empty if nowhere.
-std::string resolve_file(const FileSystem& files, const std::string& name, const std::string& beside,
-                         const std::vector<std::string>& search_paths);
+/// `name` looked up in each of `folders`; empty if nowhere. `other`, if it is asked for, becomes another file of that
+/// name which comes later.
+std::string resolve_file(const FileSystem& files, const std::string& name, const std::vector<std::string>& folders,
+                         std::string* other = nullptr);
+
+/// The warning of such another file: "'a.obj' is 'a.obj' here, and there is 'parts/a.obj' too".
+std::string two_files_of_one_name(const std::string& name, const std::string& found, const std::string& other);
 
 /// What `resolve_file` would have found, for a complaint: "a file in dir/, lib"; of built-in files, which there are.
-std::string accepted_files(const std::string& name, const std::string& beside,
-                           const std::vector<std::string>& search_paths);
+std::string accepted_files(const std::string& name, const std::vector<std::string>& folders);
 
 /// Files compiled in: (path below scenes/, contents).
 std::vector<std::pair<std::string_view, std::string_view>> builtin_files();

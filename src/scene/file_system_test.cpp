@@ -90,32 +90,45 @@ TEST_F(FileSystemTest, KnowsBuiltinFiles) {
   EXPECT_FALSE(files_.is_folder("builtin:room/room.xml"));
 }
 
-TEST(ResolveFile, LooksBesideTheFileThenInTheSearchPaths) {
+TEST(ResolveFile, LooksInTheFoldersInTheirOrder) {
   const MemoryFiles files(
       {{"scenes/room.xml", ""}, {"scenes/a.obj", ""}, {"lib/a.obj", ""}, {"lib/b.obj", ""}, {"/abs/c.obj", ""}});
-  const std::vector<std::string> paths{"other", "lib"};
-  EXPECT_EQ(resolve_file(files, "a.obj", "scenes/room.xml", paths), "scenes/a.obj");
-  EXPECT_EQ(resolve_file(files, "b.obj", "scenes/room.xml", paths), "lib/b.obj");
-  EXPECT_EQ(resolve_file(files, "c.obj", "scenes/room.xml", paths), "");
-  EXPECT_EQ(resolve_file(files, "/abs/c.obj", "scenes/room.xml", paths), "/abs/c.obj");
-  EXPECT_EQ(resolve_file(files, "scenes/a.obj", "room.xml", {}), "scenes/a.obj");
-  EXPECT_EQ(resolve_file(files, "", "scenes/room.xml", paths), "");
+  const std::vector<std::string> folders{"scenes/", "other", "lib"};
+  EXPECT_EQ(resolve_file(files, "a.obj", folders), "scenes/a.obj");
+  EXPECT_EQ(resolve_file(files, "b.obj", folders), "lib/b.obj");
+  EXPECT_EQ(resolve_file(files, "c.obj", folders), "");
+  EXPECT_EQ(resolve_file(files, "/abs/c.obj", folders), "/abs/c.obj");
+  EXPECT_EQ(resolve_file(files, "scenes/a.obj", {""}), "scenes/a.obj");
+  EXPECT_EQ(resolve_file(files, "", folders), "");
+}
+
+TEST(ResolveFile, TellsOfASecondFileOfThatName) {
+  const MemoryFiles files({{"scenes/a.obj", ""}, {"lib/a.obj", ""}, {"lib/b.obj", ""}});
+  const auto other = [&files](const std::string& name, const std::vector<std::string>& folders) {
+    std::string second;
+    resolve_file(files, name, folders, &second);
+    return second;
+  };
+  EXPECT_EQ(other("a.obj", {"scenes/", "lib"}), "lib/a.obj");
+  EXPECT_EQ(other("a.obj", {"scenes/", "scenes", "scenes/../scenes/"}), "") << "the same file";
+  EXPECT_EQ(other("b.obj", {"scenes/", "lib"}), "");
+  EXPECT_EQ(other("c.obj", {"scenes/", "lib"}), "");
 }
 
 TEST(ResolveFile, StaysWithinTheBuiltinScene) {
   const FileSystem files;
-  EXPECT_EQ(resolve_file(files, "parts/wall.obj", "builtin:room/room.xml", {}), "builtin:room/parts/wall.obj");
-  EXPECT_EQ(resolve_file(files, "room/room.xml", "builtin:x.xml", {}), "builtin:room/room.xml");
+  EXPECT_EQ(resolve_file(files, "parts/wall.obj", {"builtin:room/"}), "builtin:room/parts/wall.obj");
+  EXPECT_EQ(resolve_file(files, "room/room.xml", {"builtin:"}), "builtin:room/room.xml");
 }
 
 TEST(AcceptedFiles, NameTheFoldersAndTheBuiltInFiles) {
-  EXPECT_EQ(accepted_files("a.obj", "room.xml", {"", "lib"}), "a file in the current folder, lib");
-  EXPECT_EQ(accepted_files("a.obj", "dir/room.xml", {"dir/", "lib"}), "a file in dir/, lib");
-  EXPECT_EQ(accepted_files("/a.obj", "dir/room.xml", {}), "the path of an existing file");
-  EXPECT_EQ(accepted_files("builtin:a.obj", "dir/room.xml", {}), "builtin:room/room.xml, builtin:room/parts/wall.obj");
-  EXPECT_EQ(accepted_files("a.obj", "builtin:room/parts/room.xml", {"builtin:room/"}),
+  EXPECT_EQ(accepted_files("a.obj", {"", "lib"}), "a file in the current folder, lib");
+  EXPECT_EQ(accepted_files("a.obj", {"dir/", "lib", "dir/"}), "a file in dir/, lib");
+  EXPECT_EQ(accepted_files("/a.obj", {"dir/"}), "the path of an existing file");
+  EXPECT_EQ(accepted_files("builtin:a.obj", {"dir/"}), "builtin:room/room.xml, builtin:room/parts/wall.obj");
+  EXPECT_EQ(accepted_files("a.obj", {"builtin:room/parts/", "builtin:room/"}),
             "a file in builtin:room/parts/, builtin:room/: wall.obj");
-  EXPECT_EQ(accepted_files("a.obj", "builtin:room/room.xml", {}), "a file in builtin:room/: room.xml, parts/wall.obj");
+  EXPECT_EQ(accepted_files("a.obj", {"builtin:room/"}), "a file in builtin:room/: room.xml, parts/wall.obj");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "base/numbers.h"
 #include "base/text.h"
 #include "color/spectrum.h"
+#include "scene/base_parameters.h"
 #include "scene/constant_spectrum.h"
 #include "scene/file_system.h"
 
@@ -62,10 +63,11 @@ bool is_finite(const glm::dmat4& m) {
 }
 
 // What is wrong with a placement, and what would be right; nothing if it is fine.
-std::pair<std::string_view, std::string> complaint_about(const glm::dmat4& m) {
+std::pair<std::string_view, std::string> complaint_about(const glm::dmat4& m, Flat flat) {
   if (!is_finite(m)) return {"has elements that are too large", fmt::format("elements up to {:g}", kMaxCoordinate)};
   const bool affine = m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1;
   if (!affine) return {"is not affine", "a matrix whose last row is 0 0 0 1"};
+  if (flat == Flat::yes) return {};
   const glm::dmat3 linear(m);
   const double volume = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
   if (!(std::abs(glm::determinant(linear)) > kSingular * volume))
@@ -142,25 +144,32 @@ std::int64_t Parameters::integer(std::string_view name, std::int64_t fallback, s
 }
 
 double Parameters::number(std::string_view name, double fallback, double min, double max, Ends ends) {
-  min = std::max(min, -kMaxNumber);
-  max = std::min(max, kMaxNumber);
   Property storage;
   const Property* property = find_value<double, std::int64_t>(name, "float", storage);
-  if (!property) return fallback;
-  double value = 0;
-  if (const double* real = std::get_if<double>(&property->value)) {
-    value = *real;
-  } else if (const std::int64_t* integer = std::get_if<std::int64_t>(&property->value)) {
-    value = static_cast<double>(*integer);
-  } else {
-    const auto rgb = color_of(*property, name, min, max, false);
-    if (!rgb) return fallback;
-    value = (rgb->x + rgb->y + rgb->z) / 3;
-  }
+  return property ? number_of(*property, name, fallback, min, max, ends) : fallback;
+}
+
+double Parameters::mean(std::string_view name, double fallback, double min, double max, Ends ends) {
+  Property storage;
+  const Property* property =
+      find_value<double, std::int64_t, Property::Rgb, Property::Spectrum>(name, "float, rgb, spectrum", storage);
+  return property ? number_of(*property, name, fallback, min, max, ends) : fallback;
+}
+
+double Parameters::number_of(const Property& property, std::string_view name, double fallback, double min, double max,
+                             Ends ends) {
+  min = std::max(min, -kMaxNumber);
+  max = std::min(max, kMaxNumber);
+  const auto rgb = color_of(property, name, -kMaxNumber, kMaxNumber, false);
+  if (!rgb) return fallback;
+  // The mean of three that are the same is not always the same.
+  const double value = rgb->x == rgb->y && rgb->y == rgb->z ? rgb->x : (rgb->x + rgb->y + rgb->z) / 3;
   const bool is_above = ends == Ends::closed ? value >= min : value > min;
   const bool is_below = ends == Ends::open ? value < max : value <= max;
   if (is_above && is_below) return value;
-  error(name, fmt::format("'{}' is {}{}", name, value, property->origin),
+  const bool is_number =
+      std::holds_alternative<double>(property.value) || std::holds_alternative<std::int64_t>(property.value);
+  error(name, fmt::format("'{}' is {}{}{}", name, value, is_number ? "" : " in the mean", property.origin),
         number_range("a number", min, max, value, ends));
   return fallback;
 }
@@ -176,7 +185,8 @@ std::string Parameters::choice(std::string_view name, std::string_view fallback,
   const Property* property = find_as<std::string>(name, "string: " + join(choices));
   if (!property) return std::string(fallback);
   const std::string& value = std::get<std::string>(property->value);
-  if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
+  const auto same = [&](const std::string& word) { return equal_ignoring_case(word, value); };
+  if (const auto found = std::ranges::find_if(choices, same); found != choices.end()) return *found;
   error(name, fmt::format("'{}' is {}{}{}", name, quoted(value), property->origin, did_you_mean(value, choices)),
         join(choices));
   return std::string(fallback);
@@ -267,11 +277,11 @@ glm::dvec3 Parameters::point(std::string_view name, glm::dvec3 fallback) {
   return value;
 }
 
-glm::dmat4 Parameters::transform(std::string_view name) {
+glm::dmat4 Parameters::transform(std::string_view name, Flat flat) {
   const Property* property = find_as<Property::Transform>(name, "transform");
   if (!property) return glm::dmat4(1);
   const glm::dmat4& matrix = std::get<Property::Transform>(property->value);
-  const auto [complaint, accepted] = complaint_about(matrix);
+  const auto [complaint, accepted] = complaint_about(matrix, flat);
   if (complaint.empty()) return matrix;
   error(name, fmt::format("'{}' {}", name, complaint), accepted);
   return glm::dmat4(1);
@@ -282,10 +292,14 @@ std::string Parameters::file(std::string_view name) {
   const Property* property = find_as<std::string>(name, "string");
   if (!property) return {};
   const std::string& value = std::get<std::string>(property->value);
-  const std::string path = resolve_file(files_, value, property->location.file, description_.search_paths);
+  std::vector<std::string> folders = description_.search_paths;
+  folders.push_back(folder_of(property->location.file));
+  std::string other;
+  const std::string path = resolve_file(files_, value, folders, &other);
+  if (!other.empty()) diagnostics_.warning(property->location, two_files_of_one_name(value, path, other));
   if (!path.empty()) return path;
   error(name, fmt::format("there is no file {}{}", quoted(value, 200), property->origin),
-        accepted_files(value, property->location.file, description_.search_paths));
+        accepted_files(value, folders));
   return {};
 }
 
@@ -327,14 +341,46 @@ void Parameters::error(std::string_view name, std::string message, std::string a
   diagnostics_.error(where(name), std::move(message), std::move(accepted));
 }
 
+void Parameters::accept_without_effect(const BaseParameter& parameter) {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  using Limits = std::numeric_limits<std::int64_t>;
+  const int errors = diagnostics_.error_count();
+  switch (parameter.type) {
+    case BaseParameter::Type::boolean:
+      boolean(parameter.name, false);
+      break;
+    case BaseParameter::Type::integer:
+      integer(parameter.name, 0, Limits::min(), Limits::max());
+      break;
+    case BaseParameter::Type::number:
+      number(parameter.name, 0, -kAny, kAny);
+      break;
+    case BaseParameter::Type::transform:
+      transform(parameter.name);
+      break;
+  }
+  if (diagnostics_.error_count() > errors) return;
+  const std::string owner = parameter.plugin.empty() ? with_article(node_.kind) : name_of(node_);
+  diagnostics_.note(where(parameter.name), fmt::format("'{}' of {} has no effect here", parameter.name, owner),
+                    std::string(parameter.instead));
+}
+
 void Parameters::finish() {
   const std::vector<std::string> names = list(asked_names_), kinds = list(asked_kinds_);
+  std::vector<std::string> known = names;
+  for (const BaseParameter& row : base_parameters()) {
+    if (find_base_parameter(node_.kind, node_.plugin, row.name)) known.emplace_back(row.name);
+  }
   const std::string none = "no parameters";
   for (const Property& property : node_.properties) {
     if (asked_names_.contains(property.name)) continue;
+    if (const BaseParameter* base = find_base_parameter(node_.kind, node_.plugin, property.name)) {
+      accept_without_effect(*base);
+      continue;
+    }
     diagnostics_.error(property.name_location,
-                       fmt::format("unused parameter {} of {}{}", quoted(property.name), name_of(node_),
-                                   did_you_mean(property.name, names)),
+                       fmt::format("unused parameter {} of {}{}", quoted(property.file_name()), name_of(node_),
+                                   did_you_mean(property.name, known)),
                        names.empty() ? none : join(names));
   }
   for (const Node::Child& child : node_.children) {

@@ -15,13 +15,18 @@
 namespace norrsken {
 
 class FileSystem;
+struct BaseParameter;
 
 /// Whether the bounds of a range belong to it.
 enum class Ends { closed, open_below, open };
 
+/// Whether a placement may take space to a plane.
+enum class Flat { no, yes };
+
 /// A plugin asks for its parameters by name; what it asks for is what is accepted. Every complaint (wrong type, out of
 /// range, not finite, missing) goes to the diagnostics and the default is returned, so that reading goes on.
-/// `finish` complains about what was given but never asked for.
+/// `finish` complains about what was given but never asked for, and notes what the format takes but has no effect here
+/// (scene/base_parameters.h).
 class Parameters {
  public:
   Parameters(const Node& node, const Description& description, const FileSystem& files, Diagnostics& diagnostics);
@@ -36,8 +41,11 @@ class Parameters {
   /// Also takes an integer, or a `spectrum` or `texture` node of one value, of whose colour the mean counts. Always
   /// finite.
   double number(std::string_view name, double fallback, double min, double max, Ends ends = Ends::closed);
+  /// A number where the format has a texture: also an `rgb` or `spectrum`, of which the mean counts and is held against
+  /// the range.
+  double mean(std::string_view name, double fallback, double min, double max, Ends ends = Ends::closed);
   std::string text(std::string_view name, std::string_view fallback);
-  /// One of the words; otherwise an error that lists them.
+  /// One of the words, in any case; otherwise an error that lists them.
   std::string choice(std::string_view name, std::string_view fallback, std::initializer_list<std::string_view> words);
   /// Linear sRGB from `rgb`, `spectrum`, a grey `float`, or a `spectrum` or `texture` node of one value; components, or
   /// the values of the spectrum, within [min, max]. `emission`: a spectrum is a light's, otherwise a reflectance (see
@@ -51,7 +59,8 @@ class Parameters {
   /// Numbers in a string, apart by blanks or commas; empty after a complaint.
   std::vector<double> numbers(std::string_view name);
   glm::dvec3 point(std::string_view name, glm::dvec3 fallback);
-  glm::dmat4 transform(std::string_view name);  ///< identity if not given; singular or projective ones are an error
+  /// Identity if not given; projective ones are an error, and singular ones where nothing flat will do.
+  glm::dmat4 transform(std::string_view name, Flat flat = Flat::no);
   /// An existing file's path as found in the search order; empty after a complaint.
   std::string file(std::string_view name);
 
@@ -71,6 +80,7 @@ class Parameters {
   void finish();
 
  private:
+  void accept_without_effect(const BaseParameter& parameter);
   const Property* find(std::string_view name);
   const Node::Child* find_child(std::string_view name) const;
   /// The property if it has one of the types; a complaint if it has another or is a child node.
@@ -79,6 +89,7 @@ class Parameters {
   /// The same, or what a node of one value says, which is put into `storage`.
   template <typename... Types>
   const Property* find_value(std::string_view name, std::string_view accepted, Property& storage);
+  double number_of(const Property& property, std::string_view name, double fallback, double min, double max, Ends ends);
   std::optional<glm::dvec3> color_of(const Property& property, std::string_view name, double min, double max,
                                      bool emission);
 

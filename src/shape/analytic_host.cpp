@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace norrsken {
 
@@ -23,6 +25,24 @@ std::optional<ShapeGeometry> place_analytic(const AnalyticShape& shape, Paramete
   ShapeGeometry geometry;
   geometry.analytic = shape;
   return geometry;
+}
+
+bool keeps_shape(double deviation, double scale, Parameters& p, std::string_view message, std::string_view accepted) {
+  // Half a unit of the last decimal in each element: twice that in a product of two, for up to three of them.
+  constexpr double kPrinted = 0.5e-6 * 2 * 3;
+  // A matrix written out by hand with ten digits, or a chain of rotations.
+  constexpr double kRounding = 1e-5;
+  constexpr double kMost = 2e-2;  // of a square: a percent of the scale
+  if (!(deviation <= kMost)) {
+    p.error("to_world", std::string(message), std::string(accepted));
+    return false;
+  }
+  if (deviation > std::max(kRounding, kPrinted / scale)) {
+    p.diagnostics().warning(p.where("to_world"),
+                            fmt::format("{}: by up to {:.2g} %, which is left out", message, 50 * deviation),
+                            std::string(accepted));
+  }
+  return true;
 }
 
 }  // namespace norrsken

@@ -1,7 +1,9 @@
 // What shapes with a formula of their own share when they are placed.
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <optional>
+#include <string_view>
 
 #include "compile/builder.h"
 
@@ -9,5 +11,10 @@ namespace norrsken {
 
 /// The shape, or a complaint: about coordinates out of range, or an area too small to be told from 0.
 std::optional<ShapeGeometry> place_analytic(const AnalyticShape& shape, Parameters& p);
+
+/// Whether `to_world` keeps the shape what it is: `deviation` is how far the squares of its scale factors, or the cosines
+/// of its axes, are off, relative. What six printed decimals of a matrix of scale `scale` leave is taken in silence, up to
+/// a percent with a warning; the rest is a complaint.
+bool keeps_shape(double deviation, double scale, Parameters& p, std::string_view message, std::string_view accepted);
 
 }  // namespace norrsken

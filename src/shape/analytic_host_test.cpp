@@ -137,8 +137,22 @@ TEST(Cylinder, MayBeStretchedAlongItsAxis) {
 TEST(Cylinder, TurnsItsNormals) {
   const std::string mirror = transform(R"(<scale x="-1"/>)");
   EXPECT_TRUE(cylinder(kFlip).shape().flip_normals);
-  EXPECT_TRUE(cylinder(mirror).shape().flip_normals);
-  EXPECT_FALSE(cylinder(kFlip + mirror).shape().flip_normals);
+  EXPECT_FALSE(cylinder(mirror).shape().flip_normals) << "outwards still, unlike a sphere";
+  EXPECT_TRUE(cylinder(kFlip + mirror).shape().flip_normals);
+}
+
+TEST(Cylinder, TakesWhatPrintedDecimalsLeaveAndStraightensIt) {
+  const Placed c = cylinder(transform(R"(<matrix value="0.016773 -0.010169 0.003904 0  0.010893 0.015659 -0.006011 0  )"
+                                      R"(0 0.007167 0.018672 0  0 0 0 1"/>)"));
+  EXPECT_THAT(c.messages, IsEmpty());
+  EXPECT_NEAR(static_cast<double>(c.shape().area), 2 * M_PI * 0.02 * 0.02, 1e-7);
+  const glm::dmat3 m(c.shape().world_from_local);
+  EXPECT_NEAR(glm::dot(m[0], m[1]), 0, 1e-15);
+  EXPECT_NEAR(glm::length(m[0]), glm::length(m[1]), 1e-12);
+  EXPECT_THAT(cylinder(transform(R"(<scale x="1.004"/>)")).messages,
+              ElementsAre("warning: 'to_world' makes the cylinder's cross-section an ellipse or shears it: by up to "
+                          "0.4 %, which is left out [translations, rotations and scales with one value or along the "
+                          "axis]"));
 }
 
 TEST(Cylinder, RefusesWhatIsNone) {

@@ -43,7 +43,7 @@ MeshData make_cube() {
 }  // namespace
 
 std::optional<ShapeGeometry> compile_shape_cube(Parameters& p, Builder& builder) {
-  const glm::dmat4 to_world = p.transform("to_world");
+  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
   const bool flip_normals = p.boolean("flip_normals", false);
   p.boolean("face_normals", false);
   builder.describe(p.node(), "12 triangles");

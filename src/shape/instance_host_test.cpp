@@ -44,9 +44,14 @@ TEST(ShapeGroup, IsNowhereWithoutAnInstance) {
   EXPECT_THAT(c.info().bounds_max, ElementsAre(1, 1, 0));
 }
 
+TEST(ShapeGroup, MayBeEmpty) {
+  const Compiled c =
+      compile_shape(group("") + R"(<shape type="instance"><ref id="group"/></shape><shape type="sphere"/>)");
+  EXPECT_THAT(c.messages(), ElementsAre("warning: the shapegroup has no shape"));
+  EXPECT_THAT(c.info().bounds_max, ElementsAre(1, 1, 1));
+}
+
 TEST(ShapeGroup, RefusesWhatItCannotHold) {
-  EXPECT_THAT(compile_shape(group("")).messages(),
-              ElementsAre("error: the shapegroup has no shape [<shape type=\"...\">]"));
   EXPECT_THAT(compile_shape(group("<shape type=\"shapegroup\">" + kMembers + "</shape>")).messages(),
               ElementsAre("error: a shapegroup stands inside another one [shapes with a surface]"));
   EXPECT_THAT(compile_shape(group(kMembers + "<shape type=\"instance\"><shape type=\"shapegroup\">" + kMembers +

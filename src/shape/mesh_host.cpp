@@ -71,7 +71,11 @@ bool move_to_world(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
     }
     position = to_float(moved);
   }
-  normalize_normals(mesh, glm::transpose(glm::inverse(glm::dmat3(to_world))));
+  // A placement that flattens has no inverse; up to their length and sign, the cofactors are what it tends to.
+  const glm::dmat3 linear(to_world);
+  const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                             glm::cross(linear[0], linear[1]));
+  normalize_normals(mesh, glm::determinant(linear) == 0 ? cofactors : glm::transpose(glm::inverse(linear)));
   return true;
 }
 
@@ -177,7 +181,7 @@ bool place_mesh(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
 std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, const ReadMesh& read,
                                                std::optional<bool> flip_tex_coords) {
   const std::string path = p.file("filename");
-  const glm::dmat4 to_world = p.transform("to_world");
+  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
   bool face_normals = p.boolean("face_normals", false);
   const bool flip_normals = p.boolean("flip_normals", false);
   if (flip_tex_coords) flip_tex_coords = p.boolean("flip_tex_coords", *flip_tex_coords);

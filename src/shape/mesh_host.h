@@ -15,8 +15,11 @@
 // own is turned inside out by a mirroring `to_world`, like in Mitsuba, because its winding is what says where its front
 // is.
 //
-// Departures: Mitsuba tells front from back by the shading normal. Here the geometric normal does, and a triangle whose
-// winding contradicts the file's vertex normals is wound the other way, which comes to the same.
+// Front and back: as in Mitsuba the side from which a BSDF is seen is told by the shading normal, so that a coarse mesh
+// has no black rim where its interpolated normals turn away from the viewer before its triangles do.
+//
+// Departures: which side of a triangle emits is told by the geometric normal, in Mitsuba by the shading normal too. A
+// triangle whose winding contradicts the file's vertex normals is wound the other way, so that the two agree.
 //
 // Sources: Thuermer and Wuethrich 1998, Computing Vertex Normals from Polygonal Facets (the weights).
 #pragma once

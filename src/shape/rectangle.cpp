@@ -15,7 +15,7 @@
 namespace norrsken {
 
 std::optional<ShapeGeometry> compile_shape_rectangle(Parameters& p, Builder& builder) {
-  const glm::dmat4 to_world = p.transform("to_world");
+  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
   const bool flip_normals = p.boolean("flip_normals", false);
   builder.describe(p.node(), "2 triangles");
 

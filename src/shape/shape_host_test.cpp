@@ -56,9 +56,15 @@ TEST(Rectangle, MirroredInItsPlaneItFacesTheSameWay) {
   EXPECT_THAT(plane(compile_shape(rectangle(transform(R"(<scale z="-1"/>)"))), 0), ElementsAre(0, 0, -1, 0));
 }
 
-TEST(Rectangle, RefusesPlacementsThatFlattenIt) {
+TEST(Rectangle, MayBeFlattenedAcrossItsPlane) {
+  const Compiled c = compile_shape(rectangle(transform(R"(<scale z="0"/><rotate y="1" angle="90"/>)")));
+  EXPECT_THAT(c.messages(), IsEmpty());
+  EXPECT_THAT(plane(c, 0), Pointwise(FloatNear(1e-6f), {1.0f, 0.0f, 0.0f, 0.0f}));
+}
+
+TEST(Rectangle, WarnsOfPlacementsThatLeaveNothingOfIt) {
   EXPECT_THAT(compile_shape(rectangle(transform(R"(<scale x="0"/>)"))).messages(),
-              ElementsAre("error: 'to_world' cannot be inverted [scale factors other than 0]"));
+              ElementsAre("warning: no triangle of the shape has an area, nothing of it is drawn"));
   EXPECT_THAT(compile_shape(rectangle(transform(R"(<scale value="1e-25"/>)"))).messages(),
               ElementsAre("warning: no triangle of the shape has an area, nothing of it is drawn"));
   EXPECT_FALSE(compile_shape(rectangle(transform(R"(<scale value="1e18"/>)"))).scene);
@@ -141,6 +147,25 @@ TEST(Sphere, RefusesScalesThatMakeAnEllipsoid) {
   EXPECT_THAT(compile_shape(sphere(transform(R"(<scale x="2"/>)"))).messages(), ElementsAre(expected));
   EXPECT_THAT(compile_shape(sphere(transform(R"(<matrix value="1 0.5 0 0  0 1 0 0  0 0 1 0  0 0 0 1"/>)"))).messages(),
               ElementsAre(expected));
+}
+
+/// As exporters print: a rotation times 0.02 and what is left of it after six decimals.
+TEST(Sphere, TakesWhatPrintedDecimalsLeave) {
+  const Compiled c =
+      compile_shape(sphere(transform(R"(<matrix value="0.016773 -0.010169 0.003904 0  0.010893 0.015659 -0.006011 0  )"
+                                     R"(0 0.007167 0.018672 0  0 0 0 1"/>)")));
+  EXPECT_THAT(c.messages(), IsEmpty());
+  EXPECT_THAT(sphere_of(c), Pointwise(FloatNear(1e-6f), {0.0f, 0.0f, 0.0f, 0.02f}));
+}
+
+TEST(Sphere, WarnsOfAPercentThatItLeavesOut) {
+  const Compiled c = compile_shape(sphere(transform(R"(<scale x="1.003"/>)")));
+  EXPECT_THAT(
+      c.messages(),
+      ElementsAre("warning: 'to_world' does not scale the sphere alike in all directions: by up to 0.2 %, which "
+                  "is left out [translations, rotations and scales with one value]"));
+  EXPECT_THAT(sphere_of(c), Pointwise(FloatNear(1e-5f), {0.0f, 0.0f, 0.0f, 1.001f}));
+  EXPECT_FALSE(compile_shape(sphere(transform(R"(<scale x="1.03"/>)"))).scene);
 }
 
 TEST(Sphere, TurnsItsNormalInwards) {

@@ -4,32 +4,30 @@
 //   center        point, scene units (default 0 0 0)
 //   radius        number above 0, scene units (default 1)
 //   to_world      transform (default identity), applied to the sphere of that centre and radius; its scale must be the
-//                 same in all directions
+//                 same in all directions; up to a percent that it differs by is left out
 //   flip_normals  boolean (default false): the normal points to the centre
 // u turns around the local z axis, v goes from the pole at +z to that at -z. A mirroring `to_world` turns the normal around, as in Mitsuba.
 // Departures: Mitsuba warns of a scale that differs between directions and renders a sphere; here it is an error.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
 
 #include "compile/plugins.h"
+#include "shape/analytic_host.h"
 
 namespace norrsken {
 namespace {
 
-/// How far from a multiple of a rotation a linear map may be, relative to that multiple: what ten digits of a matrix
-/// written out by hand or a chain of rotations may leave.
-constexpr double kUniformTolerance = 1e-5;
-
-bool scales_uniformly(const glm::dmat3& linear, double scale) {
+/// How far a linear map is from a rotation times `scale`, relative.
+double deviation_from_uniform(const glm::dmat3& linear, double scale) {
   const glm::dmat3 gram = glm::transpose(linear) * linear;
+  double most = 0;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      if (std::abs(gram[i][j] / (scale * scale) - (i == j)) > kUniformTolerance) return false;
-    }
+    for (int j = 0; j < 3; ++j) most = std::max(most, std::abs(gram[i][j] / (scale * scale) - (i == j)));
   }
-  return true;
+  return most;
 }
 
 /// Texture coordinates turn with the sphere. Returns where the rotation is stored, kNone if there is none.
@@ -57,11 +55,10 @@ std::optional<ShapeGeometry> compile_shape_sphere(Parameters& p, Builder& builde
   const glm::dmat3 linear(to_world);
   const double determinant = glm::determinant(linear);
   const double scale = std::cbrt(std::abs(determinant));
-  if (!scales_uniformly(linear, scale)) {
-    p.error("to_world", "'to_world' does not scale the sphere alike in all directions",
-            "translations, rotations and scales with one value");
+  if (!keeps_shape(deviation_from_uniform(linear, scale), scale, p,
+                   "'to_world' does not scale the sphere alike in all directions",
+                   "translations, rotations and scales with one value"))
     return std::nullopt;
-  }
   const glm::dvec3 world_center = to_world * glm::dvec4(center, 1);
   const double world_radius = radius * scale;
   for (int axis = 0; axis < 3; ++axis) {

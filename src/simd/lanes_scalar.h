@@ -50,8 +50,8 @@ NORRSKEN_INLINE Float fnma(Float a, Float b, Float c) { return c.v - a.v * b.v; 
 
 NORRSKEN_INLINE Float sqrt(Float a) { return __builtin_sqrtf(a.v); }
 NORRSKEN_INLINE Float abs(Float a) { return __builtin_fabsf(a.v); }
-NORRSKEN_INLINE Float min(Float a, Float b) { return a.v < b.v ? a : b; }
-NORRSKEN_INLINE Float max(Float a, Float b) { return a.v > b.v ? a : b; }
+NORRSKEN_INLINE Float min(Float a, Float b) { return a.v < b.v ? a.v : b.v; }
+NORRSKEN_INLINE Float max(Float a, Float b) { return a.v > b.v ? a.v : b.v; }
 NORRSKEN_INLINE Float round(Float a) { return __builtin_rintf(a.v); }
 NORRSKEN_INLINE Float floor(Float a) { return __builtin_floorf(a.v); }
 NORRSKEN_INLINE Float copysign(Float magnitude, Float sign) { return __builtin_copysignf(magnitude.v, sign.v); }
@@ -92,8 +92,8 @@ NORRSKEN_INLINE std::uint32_t to_bits(Mask m) { return m.v ? 1u : 0u; }
 /// The first n lanes (all of them if n >= kLanes).
 NORRSKEN_INLINE Mask first_lanes(std::uint32_t n) { return {n > 0}; }
 
-NORRSKEN_INLINE Float select(Mask m, Float a, Float b) { return m.v ? a : b; }
-NORRSKEN_INLINE UInt select(Mask m, UInt a, UInt b) { return m.v ? a : b; }
+NORRSKEN_INLINE Float select(Mask m, Float a, Float b) { return m.v ? a.v : b.v; }
+NORRSKEN_INLINE UInt select(Mask m, UInt a, UInt b) { return m.v ? a.v : b.v; }
 
 NORRSKEN_INLINE UInt lane_index() { return 0u; }
 NORRSKEN_INLINE Float load(const float* p) { return *p; }

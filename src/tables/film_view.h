@@ -62,6 +62,8 @@ enum Feature : std::uint32_t {
 inline constexpr std::uint32_t kDiscreteFeatures = 1u << kFeatureObject | 1u << kFeaturePrimitive;
 /// Those that need texture coordinates or tangents.
 inline constexpr std::uint32_t kUvFeatures = (1u << kFeatureU | 1u << kFeatureV) | 63u << kFeatureDpDuX;
+/// Normals that point as the shape has them, which is known where there are texture coordinates.
+inline constexpr std::uint32_t kNormalFeatures = 63u << kFeatureGeometricX;
 
 /// Planes of sums, each of two doubles: see base/exact_sum.h.
 struct SumPlanes {

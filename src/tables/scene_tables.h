@@ -30,6 +30,16 @@ inline constexpr std::uint32_t kModelCount = 1
 #undef NORRSKEN_BSDF
     ;
 
+/// The models whose samples may have an `eta` other than 1.
+inline constexpr std::uint32_t kRefractingKinds = 1u << static_cast<std::uint32_t>(BsdfKind::dielectric) |
+                                                  1u << static_cast<std::uint32_t>(BsdfKind::roughdielectric) |
+                                                  1u << static_cast<std::uint32_t>(BsdfKind::principled);
+/// Bump and normal maps one inside the other: as many as a hit remembers.
+inline constexpr std::uint32_t kMostMaps = 4;
+/// Of maps: normals that turn away from the viewer are folded back; light on bumps ends softly; this is the map as it is
+/// seen from the back.
+inline constexpr std::uint32_t kPerturbFlips = 1, kPerturbShadows = 2, kPerturbBack = 4;
+
 /// A BSDF in one word: bit 31 says that the surface also emits on this side, bits 24 to 30 hold the kind, the rest the
 /// offset of its first float in `parameters`.
 using MaterialWord = std::uint32_t;
@@ -78,6 +88,13 @@ struct SurfaceRecord {
   std::uint32_t shape;  ///< index into `shapes`
 };
 
+/// What is evaluated on a shape, and with it whether coplanar triangles may count as one.
+enum class Variation : std::uint32_t {
+  none,        ///< nothing but position and normal matters
+  over_uv,     ///< texture coordinates or tangents do
+  by_triangle  ///< so does which triangle it is, as values per vertex or per triangle ask
+};
+
 struct ShapeRecord {
   std::uint32_t first_primitive = 0;
   std::uint32_t primitive_count = 0;
@@ -87,6 +104,7 @@ struct ShapeRecord {
   std::uint32_t object_from_world = kNone;  ///< spheres that are rotated: 9 floats in `parameters`, row by row
   std::uint32_t group = kNone;              ///< the group it is in, or kNone for the world
   std::uint32_t lights = kNone;             ///< where its primitives begin in `primitive_lights`; kNone: no light
+  Variation variation = Variation::none;    ///< for the host alone
 };
 
 /// Where something with a space of its own stands. Affine maps, row by row; the fourth of each row is the translation.
@@ -226,6 +244,16 @@ struct IntegratorSettings {
   bool distance = false;        ///< the image is the distance from the camera
   bool hide_emitters = false;   ///< the camera looks through surfaces that emit, and sees no environment
   bool from_lights = false;  ///< ptracer: paths start at the lights, and every surface they hit is shown to the camera
+  /// Whether surfaces sample directions wherever they sample lights, so that paths find lights by themselves too.
+  bool finds_lights() const { return !from_lights && diffuse_bounces && bsdf_samples > 0; }
+};
+
+/// A cell of the alias table by which a light around the scene, or the tree, is chosen where lights are chosen by place.
+struct AroundLight {
+  std::uint32_t light;  ///< kNone: the tree
+  std::uint32_t alias;  ///< in its place, with the probability 1 - keep
+  float keep;
+  float prob;  ///< of `light` in all
 };
 
 /// The arrays. Triangle i has corners positions[3 * triangle_vertices[3 * i + k] ...].
@@ -247,7 +275,7 @@ struct SceneTables {
   Array<LightRecord> lights;
   Array<LightNode> light_nodes;        ///< empty where lights are chosen by power alone
   Array<std::uint32_t> light_leaves;   ///< by light, its leaf among the nodes, or kNone
-  Array<std::uint32_t> lights_around;  ///< chosen beside the tree
+  Array<AroundLight> lights_around;    ///< chosen beside the tree, which is the last
   std::uint32_t bsdf_kinds = 0;        ///< bit k: a material of BsdfKind k was made; it may be behind another one
   std::uint32_t material_choices = 0;  ///< the most that stand one behind the other before a model
   std::uint32_t texture_kinds = 0;     ///< bit k: TextureKind k occurs

@@ -28,21 +28,22 @@ struct SceneView {
   const LightRecord* lights = nullptr;
   const LightNode* light_nodes = nullptr;  ///< null where lights are chosen by power alone
   const std::uint32_t* light_leaves = nullptr;
-  const std::uint32_t* lights_around = nullptr;
+  const AroundLight* lights_around = nullptr;
   const std::uint32_t* primitive_lights = nullptr;
   const AnalyticRecord* analytics = nullptr;
   const InstanceRecord* instances = nullptr;
   std::uint32_t triangle_count = 0, sphere_count = 0, light_count = 0, instance_count = 0;
-  std::uint32_t lights_around_count = 0;
-  std::uint32_t first_analytic = kNone;  ///< primitive; kNone if there is none
-  std::uint32_t analytic_kinds = 0;      ///< bit k: AnalyticKind k occurs
-  std::uint32_t bsdf_kinds = 0;          ///< bit k: BsdfKind k occurs
-  std::uint32_t texture_kinds = 0;       ///< bit k: TextureKind k occurs
-  std::uint32_t light_kinds = 0;         ///< bit k: LightKind k occurs
-  std::uint32_t environment = kNone;     ///< index of the light that rays to nowhere see
-  float center[3] = {};                  ///< of a sphere around all surfaces
+  std::uint32_t lights_around_count = 0;  ///< with the tree
+  std::uint32_t first_analytic = kNone;   ///< primitive; kNone if there is none
+  std::uint32_t analytic_kinds = 0;       ///< bit k: AnalyticKind k occurs
+  std::uint32_t bsdf_kinds = 0;           ///< bit k: BsdfKind k occurs
+  std::uint32_t texture_kinds = 0;        ///< bit k: TextureKind k occurs
+  std::uint32_t light_kinds = 0;          ///< bit k: LightKind k occurs
+  std::uint32_t environment = kNone;      ///< index of the light that rays to nowhere see
+  float center[3] = {};                   ///< of a sphere around all surfaces
   float radius = 0;
   bool any_smooth = false;
+  bool refracts = false;      ///< BSDFs that refract occur
   bool any_resolved = false;  ///< materials that are looked through at each hit occur
   /// Codes (see bsdf/resolved.h) that lead to every model behind a material; 1 if the ways are left to chance.
   std::uint32_t material_codes = 1;
@@ -138,17 +139,18 @@ enum RayField : std::uint32_t {
   kRayThroughputGreen,
   kRayThroughputBlue,
   kRayPdf,
+  kRayEta2,  ///< only written and read if the scene `refracts`
   kRaySlot,
   kRayFieldCount
 };
 /// A hit is its ray and where it ended.
-/// kHitBump is only written and read if the scene has `any_resolved`, kHitInstance if it has instances.
+/// kHitMaps are only written and read if the scene has `any_resolved`, kHitInstance if it has instances.
 enum HitField : std::uint32_t {
   kHitDistance = kRayFieldCount,
   kHitPrimitive,
   kHitMaterial,
-  kHitBump,
-  kHitInstance,
+  kHitMaps,  ///< kMostMaps fields
+  kHitInstance = kHitMaps + kMostMaps,
   kHitFieldCount
 };
 enum ShadowField : std::uint32_t {

@@ -3,7 +3,8 @@
 // Parameters
 //   color0, color1  color (defaults 0.4 and 0.2)
 //   to_uv           transform (default identity): of texture coordinates, in x and y
-// Where it stands for a number, such as a roughness, the two change places: that is what Mitsuba's images show.
+// Where it stands for a number, such as a roughness, that is the mean of a colour, and the two change places: so do
+// Mitsuba's images show it.
 // Stored: to_uv (6 floats), color0 (3), color1 (3); and again for numbers.
 #include <algorithm>
 #include <glm/common.hpp>
@@ -26,7 +27,8 @@ Texture compile_texture_checkerboard(Parameters& p, Builder& builder) {
   const glm::dvec3 low = glm::min(color0, color1), high = glm::max(color0, color1);
   Texture texture;
   texture.word = add(color0, color1);
-  texture.number = add(color1, color0);
+  const auto mean = [](const glm::dvec3& c) { return glm::dvec3((c.x + c.y + c.z) / 3); };
+  texture.number = add(mean(color1), mean(color0));
   texture.mean = (color0 + color1) / 2.0;
   texture.min = std::min({low.x, low.y, low.z});
   texture.max = std::max({high.x, high.y, high.z});

@@ -49,7 +49,7 @@ inline void generate_rays_of(const SceneView& scene, const Filter& filter, const
       const CameraRay camera_ray =
           Camera::sample(scene.camera, to_float(film_x) + in_pixel.dx, to_float(film_y) + in_pixel.dy, lens);
       const Float one(1.0f);
-      push(rays,
+      push(scene, rays,
            Ray{camera_ray.origin, camera_ray.direction, {one, one, one}, Float(0.0f), UInt(slot_base) + lane_index()},
            active);
     }

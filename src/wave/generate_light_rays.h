@@ -47,7 +47,8 @@ inline void generate_light_rays(const SceneView& scene, const WaveJob& job, Queu
                                               sampler.sample_2d(key, emission_dimension::kPosition),
                                               sampler.sample_2d(key, emission_dimension::kDirection), active);
       const Mask emitted = active & ray.valid & (max_component(ray.weight) > Float(0.0f));
-      push(rays, Ray{ray.origin, ray.direction, ray.weight, Float(0.0f), UInt(slot_base) + lane_index()}, emitted);
+      push(scene, rays, Ray{ray.origin, ray.direction, ray.weight, Float(0.0f), UInt(slot_base) + lane_index()},
+           emitted);
     }
   }
 }

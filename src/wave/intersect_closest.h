@@ -6,10 +6,40 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// The material word of the side that was hit.
-NORRSKEN_INLINE UInt material_of(const SceneView& scene, UInt primitive, UInt primitive_side, Mask active) {
-  const UInt back = shift_right<31>(primitive_side);
-  return gather_uint(surface_floats(scene) + 4, record_index(primitive) + back, active);
+/// Those of the active lanes whose ray comes from the back of the shading normal. Not inlined: few scenes need it.
+__attribute__((noinline)) inline Mask back_of_shading(const SceneView& scene, Hit hit, Mask active) {
+  return active & (make_surface_point(scene, hit, active).side < Float(0.0f));
+}
+
+/// The lanes whose surface has shading normals of its own.
+NORRSKEN_INLINE Mask has_shading_normal(const SceneView& scene, UInt primitive, Mask active) {
+  Mask found = Float(1.0f) < Float(0.0f);
+  if (scene.first_analytic != kNone) found = active & !below(primitive, scene.first_analytic);
+  if (!scene.any_smooth) return found;
+  const Mask triangle = active & below(primitive, scene.triangle_count);
+  const UInt shape = shape_index(shape_of(scene, primitive, triangle));
+  return found |
+         (triangle & (gather_uint(reinterpret_cast<const float*>(scene.shapes) + 2, shape, triangle) != UInt(0u)));
+}
+
+/// The material word of the side that the geometric normal tells.
+NORRSKEN_INLINE UInt material_of_side(const SceneView& scene, UInt primitive, UInt primitive_side, Mask active) {
+  return gather_uint(surface_floats(scene) + 4, record_index(primitive) + shift_right<31>(primitive_side), active);
+}
+
+/// The material word of the side that a ray hit. Whether it emits goes by the geometric normal, as light sampling does;
+/// what scatters there goes by the shading normal, as the BSDF's frame does.
+NORRSKEN_INLINE UInt material_of(const SceneView& scene, const Hit& hit, UInt primitive_side, Mask active) {
+  const UInt seen = material_of_side(scene, hit.primitive, primitive_side, active);
+  if (!scene.any_smooth && scene.first_analytic == kNone) return seen;
+  const UInt other = material_of_side(scene, hit.primitive, primitive_side ^ UInt(kBackSide), active);
+  const Mask differ = active & (((seen ^ other) & UInt(~kEmitsBit)) != UInt(0u));
+  if (none(differ)) return seen;
+  const Mask told = has_shading_normal(scene, hit.primitive, differ);
+  if (none(told)) return seen;
+  const Mask back = (primitive_side & UInt(kBackSide)) != UInt(0u);
+  const Mask turned = told & (back_of_shading(scene, hit, told) ^ back);
+  return select(turned, (other & UInt(~kEmitsBit)) | (seen & UInt(kEmitsBit)), seen);
 }
 
 inline constexpr std::uint32_t kModelKinds = (1u << kModelCount) - 1u;
@@ -32,17 +62,16 @@ inline void intersect_closest(const SceneView& scene, std::uint32_t hit_number, 
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     Mask active = first_lanes(rays.count - i);
     Hit hit;
-    hit.ray = load_ray(rays, i);
+    hit.ray = load_ray(scene, rays, i);
     active = keep_sound(is_sound(hit.ray), hit.ray.slot, memory.slots, active);
     const ClosestHit closest = intersect_closest_lanes(scene, from_camera, hit.ray.origin, hit.ray.direction, active);
     Mask missed = !(closest.t < Float(kInfinity));
     if (from_camera) missed |= !(closest.t <= distance_to_far_plane(scene.camera, hit.ray.direction));
     missed &= active;
-    if (scene.environment != kNone && any(missed)) push(memory.misses, hit.ray, missed);
+    if (scene.environment != kNone && any(missed)) push(scene, memory.misses, hit.ray, missed);
     active &= !missed;
     end_at(hit, closest);
-    hit.bump = UInt(0u);
-    hit.material = material_of(scene, hit.primitive, closest.primitive_side, active);
+    hit.material = material_of(scene, hit, closest.primitive_side, active);
 
     const Mask emits = active & ((hit.material & UInt(kEmitsBit)) != UInt(0u));
     if (any(emits)) push(scene, memory.light_hits, hit, emits);
@@ -61,7 +90,7 @@ inline void intersect_emitters(const SceneView& scene, const Queue& rays, WaveMe
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     Mask active = first_lanes(rays.count - i);
     Hit hit;
-    hit.ray = load_ray(rays, i);
+    hit.ray = load_ray(scene, rays, i);
     active = keep_sound(is_sound(hit.ray), hit.ray.slot, memory.slots, active);
     ClosestHit closest = no_hit();
     if (scene.accel.kind == AccelKind::planes && scene.environment == kNone) {
@@ -73,12 +102,11 @@ inline void intersect_emitters(const SceneView& scene, const Queue& rays, WaveMe
     } else {
       closest = intersect_closest_lanes(scene, false, hit.ray.origin, hit.ray.direction, active);
       const Mask missed = active & !(closest.t < Float(kInfinity));
-      if (scene.environment != kNone && any(missed)) push(memory.misses, hit.ray, missed);
+      if (scene.environment != kNone && any(missed)) push(scene, memory.misses, hit.ray, missed);
       active &= !missed;
     }
     end_at(hit, closest);
-    hit.bump = UInt(0u);
-    hit.material = material_of(scene, hit.primitive, closest.primitive_side, active);
+    hit.material = material_of_side(scene, hit.primitive, closest.primitive_side, active);
     active &= (hit.material & UInt(kEmitsBit)) != UInt(0u);
     if (any(active)) push(scene, memory.light_hits, hit, active);
   }

@@ -9,7 +9,7 @@ namespace norrsken::NORRSKEN_ISA {
 
 inline void intersect_distance(const SceneView& scene, const Queue& rays, Queue& slots) {
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
-    const Ray ray = load_ray(rays, i);
+    const Ray ray = load_ray(scene, rays, i);
     const Mask active = keep_sound(is_sound(ray), ray.slot, slots, first_lanes(rays.count - i));
     const ClosestHit closest = intersect_closest_lanes(scene, true, ray.origin, ray.direction, active);
     const Mask met = active & (closest.t <= distance_to_far_plane(scene.camera, ray.direction));

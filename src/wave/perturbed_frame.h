@@ -1,5 +1,6 @@
 // Bump and normal maps: the shading frame that they make of a surface's, and what becomes of light from directions that
-// the surface and its map do not agree about.
+// the surface and its maps do not agree about. Maps may stand inside each other; each works on the frame that the one
+// around it has made.
 //
 // Source: flipping: Schuessler, Heitz, Hanika, Dachsbacher, "Microfacet-based Normal Mapping for Robust Monte Carlo Path
 // Tracing", ACM TOG 36(6), 2017, section 1. Shadowing: Conty Estevez, Lecocq, Stein, "A Microfacet-Based Shadowing Function
@@ -12,78 +13,136 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// What is left of a surface's own frame once a map has replaced it.
-struct Perturbation {
-  bool any = false;  ///< in one of the lanes; otherwise there is nothing else to know
-  Mask lanes;
-  Vec3f normal;  ///< the shading normal without the map, on the side that the ray came from
+/// What one map leaves of the frame around it.
+struct MapLevel {
+  Mask lanes;    ///< that have it
+  Vec3f normal;  ///< of the frame around it
+  Float turn;    ///< -1 where a `twosided` between that frame and this map has turned the normal
   Float alpha2;  ///< squared width of the slopes that would make such normals; 0: no shadowing
+};
 
-  /// Factor on the light from `direction`, whose cosine with the new normal is `cos_perturbed`: none where the two
-  /// normals see it from different sides.
+/// What is left of a surface's own frame once maps have replaced it.
+struct Perturbation {
+  std::uint32_t count = 0;  ///< maps inside each other, at most, in one of the lanes; 0: there is nothing else to know
+  MapLevel levels[kMostMaps];
+  Float turn;  ///< -1 where the model's normal is not that of the innermost map, but turned to the viewer
+
+  /// Factor on the light from `direction`, whose cosine with the model's normal is `cos_perturbed`: none where two
+  /// normals that follow each other see it from different sides.
   NORRSKEN_INLINE Float weight(const Vec3f& direction, Float cos_perturbed) const {
-    const Float cos_theta = dot(direction, normal);
-    const Float cos2 = cos_theta * cos_theta;
-    const Float tan2 = max(Float(1.0f) - cos2, Float(0.0f)) / cos2;
-    const Float shadowing = Float(2.0f) / (Float(1.0f) + sqrt(fma(alpha2, tan2, Float(1.0f))));
-    return select(lanes, zero_unless(cos_theta * cos_perturbed > Float(0.0f), shadowing), Float(1.0f));
+    Float product(1.0f), cos_inside = cos_perturbed * turn;
+    for (std::uint32_t k = count; k-- > 0;) {
+      const MapLevel& level = levels[k];
+      const Float cos_theta = dot(direction, level.normal);
+      const Float cos2 = cos_theta * cos_theta;
+      const Float tan2 = max(Float(1.0f) - cos2, Float(0.0f)) / cos2;
+      const Float shadowing = Float(2.0f) / (Float(1.0f) + sqrt(fma(level.alpha2, tan2, Float(1.0f))));
+      const Float weight = zero_unless(cos_theta * cos_inside > Float(0.0f), shadowing);
+      product = select(level.lanes, product * weight, product);
+      cos_inside = select(level.lanes, cos_theta * level.turn, cos_inside);
+    }
+    return product;
   }
 };
+
+/// A frame between maps.
+struct MappedFrame {
+  Frame surface;  ///< around the normal as the surface and the maps so far have it, outwards
+  Frame seen;     ///< the same as directions see it: mirrored by every `twosided` so far that is seen from the back
+
+  /// Where the ray comes from the back of it.
+  NORRSKEN_INLINE Mask from_back(const Vec3f& direction) const { return dot(direction, seen.n) > Float(0.0f); }
+};
+
+/// Around all maps. From the back the point's frame is mirrored in the surface: see make_surface_point.
+NORRSKEN_INLINE MappedFrame unmapped_frame(const SurfacePoint& s) {
+  const Frame outside{s.frame.s, s.frame.t, s.frame.n * s.side};
+  return {outside, outside};
+}
+
+struct EnteredMap {
+  MappedFrame inside;
+  MapLevel level;
+};
+
+/// What is inside of the map `word`, for lanes with one. Not inlined: few scenes have one, and every BSDF would repeat it.
+__attribute__((noinline)) inline EnteredMap enter_map(const SceneView& scene, UInt word, Vec3f direction,
+                                                      SurfacePoint point, MappedFrame around, Mask lanes) {
+  const ParameterReader parameters{scene, word & UInt(kMaterialOffsetMask), point.texture, lanes};
+  const UInt flags = bits(parameters.number(2));
+  // A map for the front that is seen from the back stands in a `twosided`, which mirrors directions in the surface there.
+  const Mask made_for_back = (flags & UInt(kPerturbBack)) != UInt(0u);
+  const Mask mirrored = lanes & (around.from_back(direction) ^ made_for_back);
+  const Float turn = select(mirrored, Float(-1.0f), Float(1.0f));
+  Frame& seen = around.seen;
+  seen.n = seen.n * turn;
+
+  const Unperturbed outside{around.surface, point.normal, point.dp_du, point.dp_dv};
+  Vec3f n{Float(0.0f), Float(0.0f), Float(1.0f)};
+#define NORRSKEN_BSDF_PERTURBING(kind, Adapter)                                                                \
+  if (scene.bsdf_kinds & (1u << static_cast<std::uint32_t>(BsdfKind::kind))) {                                 \
+    const Mask of_kind = lanes & ((word & UInt(kMaterialKindMask)) == UInt(make_material(BsdfKind::kind, 0))); \
+    if (any(of_kind))                                                                                          \
+      n = select(of_kind, Adapter::normal({scene, parameters.offset, point.texture, of_kind}, outside), n);    \
+  }
+#include "bsdf/resolved.def"
+#undef NORRSKEN_BSDF_PERTURBING
+
+  const Vec3f wo = seen.to_local(-direction);
+  const Mask flip = ((flags & UInt(kPerturbFlips)) != UInt(0u)) & (wo.z * dot(wo, n) <= Float(0.0f));
+  n = {select(flip, -n.x, n.x), select(flip, -n.y, n.y), n.z};
+  const Float inv_length = Float(1.0f) / sqrt(dot(n, n));
+  const Mask usable = inv_length < Float(kInfinity);  // also false for what is no number
+  n = select(usable, n * inv_length, Vec3f{Float(0.0f), Float(0.0f), Float(1.0f)});
+  const Float tan2 = fma(n.x, n.x, n.y * n.y) / (n.z * n.z);
+  const Mask shadows = (flags & UInt(kPerturbShadows)) != UInt(0u);
+  const MapLevel level{lanes, seen.n, turn, zero_unless(shadows, min(Float(0.125f) * tan2, Float(1.0f)))};
+
+  const Frame turned = frame_along(n, {Float(1.0f), Float(0.0f), Float(0.0f)});
+  const auto within = [&](const Frame& f) {
+    return Frame{select(lanes, f.to_world(turned.s), f.s), select(lanes, f.to_world(turned.t), f.t),
+                 select(lanes, f.to_world(turned.n), f.n)};
+  };
+  return {{within(around.surface), within(seen)}, level};
+}
 
 struct PerturbedFrame {
   Frame frame;
   Perturbation map;
 };
 
-/// For lanes with a map. Not inlined: few scenes have one, and every BSDF would repeat it.
-__attribute__((noinline)) inline PerturbedFrame perturbed_frame(const SceneView& scene, UInt bump, Vec3f direction,
-                                                                SurfacePoint surface, Mask lanes) {
-  // The frame is mirrored in the surface where it is seen from the back: see make_surface_point.
-  const Frame& seen = surface.frame;
-  const Float side = copysign(Float(1.0f), dot(cross(seen.s, seen.t), seen.n));
-  const Unperturbed outside{{seen.s, seen.t, seen.n * side}, surface.normal * side, surface.dp_du, surface.dp_dv};
-  const ParameterReader parameters{scene, bump & UInt(kMaterialOffsetMask), surface.texture, lanes};
-  Vec3f n{Float(0.0f), Float(0.0f), Float(1.0f)};
-#define NORRSKEN_BSDF_PERTURBING(kind, Adapter)                                                                \
-  if (scene.bsdf_kinds & (1u << static_cast<std::uint32_t>(BsdfKind::kind))) {                                 \
-    const Mask of_kind = lanes & ((bump & UInt(kMaterialKindMask)) == UInt(make_material(BsdfKind::kind, 0))); \
-    if (any(of_kind))                                                                                          \
-      n = select(of_kind, Adapter::normal({scene, parameters.offset, surface.texture, of_kind}, outside), n);  \
+/// Behind all maps of a hit, for lanes with one.
+__attribute__((noinline)) inline PerturbedFrame perturbed_frame(const SceneView& scene, Hit hit, SurfacePoint point,
+                                                                Mask active) {
+  PerturbedFrame p;
+  MappedFrame frame = unmapped_frame(point);
+  for (std::uint32_t k = 0; k < kMostMaps; ++k) {
+    const Mask lanes = active & (hit.maps[k] != UInt(0u));
+    if (none(lanes)) break;
+    const EnteredMap entered = enter_map(scene, hit.maps[k], hit.ray.direction, point, frame, lanes);
+    frame = entered.inside;
+    p.map.levels[k] = entered.level;
+    p.map.count = k + 1;
   }
-#include "bsdf/resolved.def"
-#undef NORRSKEN_BSDF_PERTURBING
-
-  const UInt flags = bits(parameters.number(1));
-  const Vec3f wo = outside.frame.to_local(-direction);
-  const Mask flip = ((flags & UInt(kPerturbFlips)) != UInt(0u)) & (wo.z * dot(wo, n) <= Float(0.0f));
-  n = {select(flip, -n.x, n.x), select(flip, -n.y, n.y), n.z};
-  const Float inv_length = Float(1.0f) / sqrt(dot(n, n));
-  const Mask usable = inv_length < Float(kInfinity);  // also false for what is no number
-  n = select(usable, n * inv_length, Vec3f{Float(0.0f), Float(0.0f), Float(1.0f)});
-
-  Perturbation map{true, lanes, seen.n, Float(0.0f)};
-  const Float tan2 = fma(n.x, n.x, n.y * n.y) / (n.z * n.z);
-  map.alpha2 = zero_unless((flags & UInt(kPerturbShadows)) != UInt(0u), min(Float(0.125f) * tan2, Float(1.0f)));
-  const Vec3f world = outside.frame.to_world(n);
-  Frame frame = frame_along(world, seen.s);
-  frame.n = frame.n * side;
-  return {{select(lanes, frame.s, seen.s), select(lanes, frame.t, seen.t), select(lanes, frame.n, seen.n)}, map};
+  p.map.turn = select(frame.from_back(hit.ray.direction), Float(-1.0f), Float(1.0f));
+  p.frame = {frame.seen.s, frame.seen.t, frame.seen.n * p.map.turn};
+  return p;
 }
 
-/// Gives the surface the frame of the map that its hit has, if any.
+/// Gives the surface the frame of the maps that its hit has, if any.
 template <class Scene>
 NORRSKEN_INLINE Perturbation perturb_frame(const Scene& scene, const Hit& hit, SurfacePoint& surface, Mask active) {
   if (scene.any_resolved) {
-    const Mask lanes = active & (hit.bump != UInt(0u));
+    const Mask lanes = active & (hit.maps[0] != UInt(0u));
     if (any(lanes)) {
-      const PerturbedFrame perturbed =
-          perturbed_frame(scene, hit.bump, copied(hit.ray.direction), copied(surface), lanes);
-      surface.frame = perturbed.frame;
+      const PerturbedFrame perturbed = perturbed_frame(scene, hit, copied(surface), active);
+      surface.frame = {select(lanes, perturbed.frame.s, surface.frame.s),
+                       select(lanes, perturbed.frame.t, surface.frame.t),
+                       select(lanes, perturbed.frame.n, surface.frame.n)};
       return perturbed.map;
     }
   }
-  Perturbation none;
-  return none;
+  return {};
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

@@ -12,6 +12,7 @@ struct Ray {
   Vec3f throughput;
   Float pdf_sa;  ///< density that sampled the direction; 0 if no light sampling competes with it
   UInt slot;
+  Float eta2 = Float(1.0f);  ///< squared index of refraction where it is over that where the path began
 };
 
 /// A ray that hit something.
@@ -19,9 +20,9 @@ struct Hit {
   Ray ray;
   Float t;
   UInt primitive;
-  UInt material;  ///< the word of the side that was hit
-  UInt instance;  ///< that it was hit in, or kNone
-  UInt bump;      ///< the word of the bump or normal map there, or 0
+  UInt material;              ///< the word of the side that was hit
+  UInt instance;              ///< that it was hit in, or kNone
+  UInt maps[kMostMaps] = {};  ///< the words of the bump and normal maps there, from the outside in; the others are 0
 };
 
 NORRSKEN_INLINE void end_at(Hit& hit, const ClosestHit& closest) {
@@ -48,40 +49,49 @@ NORRSKEN_INLINE void compress_store3(const Queue& q, std::uint32_t first_field, 
   compress_store(q.field(first_field + 2) + i, v.z, c);
 }
 
-NORRSKEN_INLINE Ray load_ray(const Queue& q, std::uint32_t i) {
-  return {load3(q, kRayOriginX, i), load3(q, kRayDirectionX, i), load3(q, kRayThroughputRed, i),
-          load(q.field(kRayPdf) + i), load_uint(q.field(kRaySlot) + i)};
+/// `Scene`, here and below: SceneView or PlainScene.
+template <class Scene>
+NORRSKEN_INLINE Ray load_ray(const Scene& scene, const Queue& q, std::uint32_t i) {
+  return {load3(q, kRayOriginX, i),         load3(q, kRayDirectionX, i),
+          load3(q, kRayThroughputRed, i),   load(q.field(kRayPdf) + i),
+          load_uint(q.field(kRaySlot) + i), scene.refracts ? load(q.field(kRayEta2) + i) : Float(1.0f)};
 }
-NORRSKEN_INLINE void store_ray_fields(const Queue& q, const Ray& r, const Compaction& c) {
+template <class Scene>
+NORRSKEN_INLINE void store_ray_fields(const Scene& scene, const Queue& q, const Ray& r, const Compaction& c) {
   compress_store3(q, kRayOriginX, q.count, r.origin, c);
   compress_store3(q, kRayDirectionX, q.count, r.direction, c);
   compress_store3(q, kRayThroughputRed, q.count, r.throughput, c);
   compress_store(q.field(kRayPdf) + q.count, r.pdf_sa, c);
   compress_store(q.field(kRaySlot) + q.count, r.slot, c);
+  if (scene.refracts) compress_store(q.field(kRayEta2) + q.count, r.eta2, c);
 }
-NORRSKEN_INLINE void push(Queue& q, const Ray& r, Mask m) {
+template <class Scene>
+NORRSKEN_INLINE void push(const Scene& scene, Queue& q, const Ray& r, Mask m) {
   const Compaction c = make_compaction(m);
-  store_ray_fields(q, r, c);
+  store_ray_fields(scene, q, r, c);
   q.count += c.count;
 }
 
 template <class Scene>
 NORRSKEN_INLINE Hit load_hit(const Scene& scene, const Queue& q, std::uint32_t i) {
-  return {load_ray(q, i),
-          load(q.field(kHitDistance) + i),
-          load_uint(q.field(kHitPrimitive) + i),
+  Hit hit{load_ray(scene, q, i), load(q.field(kHitDistance) + i), load_uint(q.field(kHitPrimitive) + i),
           load_uint(q.field(kHitMaterial) + i),
-          scene.instance_count > 0 ? load_uint(q.field(kHitInstance) + i) : UInt(kNone),
-          scene.any_resolved ? load_uint(q.field(kHitBump) + i) : UInt(0u)};
+          scene.instance_count > 0 ? load_uint(q.field(kHitInstance) + i) : UInt(kNone)};
+  if (scene.any_resolved) {
+    for (std::uint32_t k = 0; k < kMostMaps; ++k) hit.maps[k] = load_uint(q.field(kHitMaps + k) + i);
+  }
+  return hit;
 }
 NORRSKEN_INLINE void push(const SceneView& scene, Queue& q, const Hit& h, Mask m) {
   const Compaction c = make_compaction(m);
-  store_ray_fields(q, h.ray, c);
+  store_ray_fields(scene, q, h.ray, c);
   compress_store(q.field(kHitDistance) + q.count, h.t, c);
   compress_store(q.field(kHitPrimitive) + q.count, h.primitive, c);
   compress_store(q.field(kHitMaterial) + q.count, h.material, c);
   if (scene.instance_count > 0) compress_store(q.field(kHitInstance) + q.count, h.instance, c);
-  if (scene.any_resolved) compress_store(q.field(kHitBump) + q.count, h.bump, c);
+  if (scene.any_resolved) {
+    for (std::uint32_t k = 0; k < kMostMaps; ++k) compress_store(q.field(kHitMaps + k) + q.count, h.maps[k], c);
+  }
   q.count += c.count;
 }
 

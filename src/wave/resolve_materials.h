@@ -8,25 +8,48 @@
 #include "sampler/sampler.h"
 #include "wave/generate_camera_rays.h"
 #include "wave/intersect_closest.h"
+#include "wave/perturbed_frame.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Looks through one adapter in each lane that has one; `bump` remembers the maps on the way.
-NORRSKEN_INLINE void look_behind(const SceneView& scene, const TexturePoint& point, UInt& word, UInt& bump,
-                                 Choice& choice, Mask open) {
-  const UInt kind_bits = word & UInt(kMaterialKindMask), offset = word & UInt(kMaterialOffsetMask);
-#define NORRSKEN_BSDF_RESOLVED(kind, Adapter)                                          \
-  if (scene.bsdf_kinds & (1u << static_cast<std::uint32_t>(BsdfKind::kind))) {         \
-    const Mask of_kind = open & (kind_bits == UInt(make_material(BsdfKind::kind, 0))); \
-    if (any(of_kind)) {                                                                \
-      const UInt behind = Adapter::behind({scene, offset, point, of_kind}, choice);    \
-      word = select(of_kind, behind, word);                                            \
-    }                                                                                  \
+/// Enters a map in each lane that has one: puts it behind those that the hit has met, and leads on by the side that the
+/// ray comes from as the frame is then.
+NORRSKEN_INLINE void look_behind_map(const SceneView& scene, const SurfacePoint& surface, Hit& hit, MappedFrame& frame,
+                                     Mask maps) {
+  const UInt map = hit.material & UInt(kMaterialKindMask | kMaterialOffsetMask);
+  Mask unplaced = maps;
+  for (UInt& place : hit.maps) {
+    const Mask here = unplaced & (place == UInt(0u));
+    place = select(here, map, place);
+    unplaced = unplaced & !here;
   }
-#define NORRSKEN_BSDF_PERTURBING(kind, Adapter) \
-  bump = select(open & (kind_bits == UInt(make_material(BsdfKind::kind, 0))), kind_bits | offset, bump);
+  frame = enter_map(scene, map, copied(hit.ray.direction), copied(surface), frame, maps).inside;
+  const UInt back = select(frame.from_back(hit.ray.direction), UInt(1u), UInt(0u));
+  const UInt behind = gather_uint(scene.parameters, (map & UInt(kMaterialOffsetMask)) + back, maps);
+  hit.material = select(maps, behind, hit.material);
+}
+
+template <class Adapter>
+NORRSKEN_INLINE void look_behind_adapter(const SceneView& scene, const SurfacePoint& surface, Hit& hit,
+                                         MappedFrame& frame, Choice& choice, Mask of_kind) {
+  const ParameterReader parameters{scene, hit.material & UInt(kMaterialOffsetMask), surface.texture, of_kind};
+  if constexpr (requires { Adapter::behind(parameters, choice); }) {
+    hit.material = select(of_kind, Adapter::behind(parameters, choice), hit.material);
+  } else {
+    look_behind_map(scene, surface, hit, frame, of_kind);
+  }
+}
+
+/// Looks through one adapter in each lane that has one.
+NORRSKEN_INLINE void look_behind(const SceneView& scene, const SurfacePoint& surface, Hit& hit, MappedFrame& frame,
+                                 Choice& choice, Mask open) {
+  const UInt kind_bits = hit.material & UInt(kMaterialKindMask);
+#define NORRSKEN_BSDF_RESOLVED(kind, Adapter)                                                    \
+  if (scene.bsdf_kinds & (1u << static_cast<std::uint32_t>(BsdfKind::kind))) {                   \
+    const Mask of_kind = open & (kind_bits == UInt(make_material(BsdfKind::kind, 0)));           \
+    if (any(of_kind)) look_behind_adapter<Adapter>(scene, surface, hit, frame, choice, of_kind); \
+  }
 #include "bsdf/resolved.def"
-#undef NORRSKEN_BSDF_PERTURBING
 #undef NORRSKEN_BSDF_RESOLVED
 }
 
@@ -45,13 +68,14 @@ inline void resolve_materials(const SceneView& scene, std::uint32_t hit_number, 
     const SurfacePoint surface = make_surface_point(scene, hit, active);
     const SampleKey key = load_sample_key(memory.slots, hit.ray.slot, active);
     Choice choice = code == kByChance ? Choice::by_chance(sampler.sample_1d(key, dimension)) : Choice::by_code(code);
+    MappedFrame frame = unmapped_frame(surface);
     const auto unresolved = [&] {
       return active &
              !(to_float(hit.material & UInt(kMaterialKindMask)) < Float(static_cast<float>(kModelCount << 24)));
     };
     // Comes to an end: a word leads only to words that were made before it.
     for (Mask open = unresolved(); any(open); open = unresolved())
-      look_behind(scene, surface.texture, hit.material, hit.bump, choice, open);
+      look_behind(scene, surface, hit, frame, choice, open);
     if (code != kByChance) {
       active &= choice.is_way();
       hit.ray.throughput = hit.ray.throughput * choice.weight();

@@ -6,12 +6,6 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// -1 where the side that is seen is not the one that the shape's normal points to.
-NORRSKEN_INLINE Float side_of_normal(const SceneView& scene, const SurfacePoint& surface, UInt shape, Mask active) {
-  const UInt flipped = gather_uint(reinterpret_cast<const float*>(scene.shapes) + 3, shape_index(shape), active);
-  return select(flipped != UInt(0u), -surface.side, surface.side);
-}
-
 /// Stores a register's values of one feature to the slots of its active lanes.
 NORRSKEN_INLINE void store_feature(const Queue& slots, std::uint32_t feature, UInt slot, Float value, Mask active) {
   alignas(64) float lanes[kLanes], index[kLanes];
@@ -38,9 +32,8 @@ inline void shade_features(const SceneView& scene, const Queue& hits, Queue& slo
     const UInt shape = shape_of(scene, hit.primitive, active);
     const UInt first_primitive = gather_uint(reinterpret_cast<const float*>(scene.shapes), shape_index(shape), active);
     const Float along_axis = dot(hit.ray.direction, broadcast(scene.camera.forward));
-    const Float side = side_of_normal(scene, surface, shape, active);
     const Vec3f facing = surface.frame.n, p = surface.position;
-    const Vec3f geometric = surface.normal * side, shading = facing * side;
+    const Vec3f geometric = surface.normal, shading = facing * surface.side;
     const Float values[kFeatureCount] = {
         fma(hit.t, along_axis, Float(scene.camera.near_clip)),
         facing.x,

@@ -85,7 +85,7 @@ NORRSKEN_INLINE void connect_to_camera(const SceneView& scene, const Hit& hit, c
 }
 
 template <class Model>
-NORRSKEN_INLINE void sample_next_particle(const Sampler& sampler, const SampleKey& key,
+NORRSKEN_INLINE void sample_next_particle(const SceneView& scene, const Sampler& sampler, const SampleKey& key,
                                           const ParticleSettings& settings, const Hit& hit, const SurfacePoint& surface,
                                           const typename Model::Parameters& bsdf, const Vec3f& wo_local,
                                           Queue& next_rays, Mask active) {
@@ -104,7 +104,7 @@ NORRSKEN_INLINE void sample_next_particle(const Sampler& sampler, const SampleKe
     throughput = throughput * (Float(1.0f) / survive);
   }
   const Vec3f origin = spawn_origin(surface.position, surface.normal, surface.offset, dot(direction, surface.normal));
-  if (any(active)) push(next_rays, Ray{origin, direction, throughput, Float(0.0f), hit.ray.slot}, active);
+  if (any(active)) push(scene, next_rays, Ray{origin, direction, throughput, Float(0.0f), hit.ray.slot}, active);
 }
 
 NORRSKEN_INLINE Vec2f lens_sample(const SceneView& scene, const Sampler& sampler, const SampleKey& key,
@@ -130,14 +130,14 @@ inline void shade_particles(const SceneView& scene, const ParticleSettings& sett
     const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));
     const Vec3f wo = surface.frame.to_local(-hit.ray.direction);
     // The light comes from where the ray did. (Normals are folded back by that side too, not by the viewer's.)
-    if (map.any) hit.ray.throughput = hit.ray.throughput * map.weight(-hit.ray.direction, wo.z);
+    if (map.count > 0) hit.ray.throughput = hit.ray.throughput * map.weight(-hit.ray.direction, wo.z);
     const SampleKey key = load_sample_key(slots, hit.ray.slot, active);
     if (!Model::kDelta) {
       const Vec2f lens = lens_sample(scene, sampler, key, settings);
       connect_to_camera<Model>(scene, hit, surface, bsdf, wo, lens, connections, active);
     }
     if (!settings.next_rays) continue;
-    sample_next_particle<Model>(sampler, key, settings, hit, surface, bsdf, wo, next_rays, active);
+    sample_next_particle<Model>(scene, sampler, key, settings, hit, surface, bsdf, wo, next_rays, active);
   }
 }
 

@@ -20,9 +20,10 @@ struct ShadeSettings {
   std::uint32_t bsdf_sample = 0;  ///< which of the bsdf_samples to take
 };
 
-/// Survival probability as Mitsuba's: the largest component of the throughput, at most 0.95.
-NORRSKEN_INLINE Float survival_probability(const Vec3f& throughput) {
-  return min(max_component(throughput), Float(0.95f));
+/// Survival probability as Mitsuba's: the largest component of the throughput, at most 0.95. Where radiance is
+/// compressed, in glass, it is taken as it will be again outside: `eta2` undoes what refraction did to the throughput.
+NORRSKEN_INLINE Float survival_probability(const Vec3f& throughput, Float eta2) {
+  return min(max_component(throughput) * eta2, Float(0.95f));
 }
 
 template <class Model, class Scene>
@@ -57,15 +58,15 @@ NORRSKEN_INLINE void sample_lights(const Scene& scene, const ShadeSettings& sett
           power_heuristic(Float(static_cast<float>(n)), light_pdf, bsdf_samples, Model::pdf_sa(bsdf, wo, wi));
       weight = weight * select(light.delta, Float(1.0f), competing);
     }
-    if (map.any) weight = weight * map.weight(direction, wi.z);
+    if (map.count > 0) weight = weight * map.weight(direction, wi.z);
     const Vec3f contribution = hit.ray.throughput * f * light.sample.radiance * weight;
     const Mask lit = active & light.sample.valid & (max_component(contribution) != Float(0.0f));
     if (any(lit)) push(shadow_rays, ShadowRay{origin, direction, distance, contribution, hit.ray.slot}, lit);
   }
 }
 
-template <class Model>
-NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings& settings, const Sampler& sampler,
+template <class Model, class Scene>
+NORRSKEN_INLINE void sample_next_ray(const Scene& scene, const ShadeSettings& settings, const Sampler& sampler,
                                      const SampleKey& key, const Hit& hit, const SurfacePoint& surface,
                                      const Perturbation& map, const typename Model::Parameters& bsdf, const Vec3f& wo,
                                      Queue& next_rays, Mask active) {
@@ -75,12 +76,13 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
   const BsdfSample sample = sample_bsdf<Model>(sampler, k, dimension, bsdf, wo);
   const Vec3f direction = surface.frame.to_world(sample.wi);
   Vec3f throughput = hit.ray.throughput * sample.weight;
-  if (map.any) throughput = throughput * map.weight(direction, sample.wi.z);
+  if (map.count > 0) throughput = throughput * map.weight(direction, sample.wi.z);
   // What is no number goes on to where the sample is given up.
   active &= sample.valid & !(max_component(throughput) <= Float(0.0f));
   if (n > 1) throughput = throughput * Float(1.0f / static_cast<float>(n));
+  const Float eta2 = hit.ray.eta2 * (sample.eta * sample.eta);
   if (settings.roulette) {
-    const Float survive = survival_probability(throughput);
+    const Float survive = survival_probability(throughput, eta2);
     active &= sampler.sample_1d(key, dimension + hit_dimension::kRoulette) < survive;
     throughput = throughput * (Float(1.0f) / survive);
   }
@@ -88,7 +90,7 @@ NORRSKEN_INLINE void sample_next_ray(const SceneView& scene, const ShadeSettings
   // Light sampling competes with a direction unless it is a delta or nothing can be sampled.
   const bool competed = scene.light_count > 0 && scene.integrator.emitter_samples > 0;
   const Float pdf = competed ? sample.pdf_sa : Float(0.0f);
-  if (any(active)) push(next_rays, Ray{origin, direction, throughput, pdf, hit.ray.slot}, active);
+  if (any(active)) push(scene, next_rays, Ray{origin, direction, throughput, pdf, hit.ray.slot, eta2}, active);
 }
 
 /// `Scene`: SceneView or PlainScene.

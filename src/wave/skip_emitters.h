@@ -11,7 +11,8 @@ inline constexpr int kMostSkipped = 256;
 /// The ray of a hit goes on behind what it met.
 NORRSKEN_INLINE void step_behind(const SceneView& scene, Hit& hit, Mask active) {
   const SurfacePoint surface = make_surface_point(scene, hit, active);
-  const Vec3f behind = spawn_origin(surface.position, surface.normal, surface.offset, Float(-1.0f));
+  const Float side = dot(hit.ray.direction, surface.normal);
+  const Vec3f behind = spawn_origin(surface.position, surface.normal, surface.offset, side);
   hit.ray.origin = select(active, behind, hit.ray.origin);
 }
 
@@ -19,7 +20,7 @@ inline void skip_emitters(const SceneView& scene, Queue& rays) {
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     Mask active = first_lanes(rays.count - i);
     Hit hit;
-    hit.ray = load_ray(rays, i);
+    hit.ray = load_ray(scene, rays, i);
     for (int skipped = 0; skipped < kMostSkipped && any(active); ++skipped) {
       const ClosestHit closest =
           intersect_closest_lanes(scene, skipped == 0, hit.ray.origin, hit.ray.direction, active);

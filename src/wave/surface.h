@@ -10,12 +10,12 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// A surface point as shading sees it. Normals point to the side that the ray came from.
+/// A surface point as shading sees it.
 struct SurfacePoint {
   Vec3f position;
-  Vec3f normal;  ///< geometric
-  Frame frame;   ///< around the shading normal
-  Float side;    ///< -1 where the ray comes from the side that the outward normal points away from, otherwise 1
+  Vec3f normal;  ///< geometric, as the shape has it: it may point away from the ray
+  Frame frame;   ///< around the shading normal, turned to the side that the ray came from
+  Float side;    ///< -1 where the shading normal had to be turned, otherwise 1
   Float offset;  ///< bound of how far rounding may have moved the position off the surface, with reserve
   /// Only if the scene `needs_uv`: where textures look, and how the position moves with u and v.
   TexturePoint texture;
@@ -164,6 +164,19 @@ inline Parametrization parametrize_sphere(const SceneView& scene, Float radius, 
           rotation.world({local.z * phi.x, local.z * phi.y, -sin_theta}) * pi_r};
 }
 
+/// -1 where the sphere's normal points to its centre, otherwise 1.
+NORRSKEN_INLINE Float direction_of_sphere_normal(const SceneView& scene, UInt record, Mask active) {
+  const UInt shape = shape_index(gather_uint(surface_floats(scene) + 6, record, active));
+  const UInt flipped = gather_uint(reinterpret_cast<const float*>(scene.shapes) + 3, shape, active);
+  return select(flipped != UInt(0u), Float(-1.0f), Float(1.0f));
+}
+
+/// -1 where a ray of this direction comes from the back of a surface with this shading normal, otherwise 1. The shading
+/// normal tells, not the geometric one: BSDFs are made of it, and would be black where the viewer is below it.
+NORRSKEN_INLINE Float side_told_by(const Vec3f& shading, const Vec3f& direction) {
+  return select(dot(shading, direction) > Float(0.0f), Float(-1.0f), Float(1.0f));
+}
+
 /// `Scene`: SceneView or PlainScene.
 template <class Scene>
 NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& hit, Mask active) {
@@ -198,9 +211,12 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& h
   if (scene.sphere_count > 0) {
     if (any(sphere)) {
       const Vec3f n = normalize(along - geometry);
-      s.normal = select(sphere, n, s.normal);
       s.position = select(sphere, fma(n, fourth, geometry), s.position);
       scale = select(sphere, largest(s.position) + fourth, scale);
+      // Which way it points matters to maps and layers alone: else a surface looks the same from both sides.
+      Float outwards(1.0f);
+      if (scene.needs_uv) outwards = direction_of_sphere_normal(scene, index, sphere);
+      s.normal = select(sphere, n * outwards, s.normal);
     }
   }
 
@@ -221,7 +237,8 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& h
       }
     }
     if (scene.needs_uv && any(sphere)) {
-      set_parametrization(s, parametrize_sphere(scene, fourth, copied(s.normal), s.texture.shape, sphere), sphere);
+      set_parametrization(s, parametrize_sphere(scene, fourth, normalize(along - geometry), s.texture.shape, sphere),
+                          sphere);
     }
   }
   if (any(analytic)) {
@@ -237,18 +254,15 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& h
   }
   s.offset = scale * Float(kOffsetUlps);
 
-  const Mask back = dot(s.normal, hit.ray.direction) > Float(0.0f);
-  const Float sign = select(back, Float(-1.0f), Float(1.0f));
+  s.side = side_told_by(shading, hit.ray.direction);
   if (scene.needs_uv) {
     // Along the first tangent, as anisotropic models and normal maps want it. From the back the frame is mirrored in
     // the surface, not turned: s and t stay.
     s.frame = frame_along(shading, s.dp_du);
-    s.frame.n = shading * sign;
+    s.frame.n = shading * s.side;
   } else {
-    s.frame = make_frame(shading * sign);
+    s.frame = make_frame(shading * s.side);
   }
-  s.normal = s.normal * sign;
-  s.side = sign;
   return s;
 }
 

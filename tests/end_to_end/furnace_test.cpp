@@ -39,6 +39,19 @@ TEST_P(Furnace, ShowsItsShare) {
   }
 }
 
+using EnvironmentAlone = SceneFolder;
+
+/// Nothing in it: every ray sees the sky, with whatever the paths begin.
+TEST_F(EnvironmentAlone, ShowsItself) {
+  for (const char* integrator : {"path", "direct", "volpath", "ptracer"}) {
+    const std::string elements = std::string("<integrator type=\"") + integrator + "\"/>" + camera(kSize) +
+                                 R"(<emitter type="constant"><float name="radiance" value="2"/></emitter>)";
+    const auto picture =
+        picture_of(render_image(load_elements(elements), {.samples_per_pixel = 4, .threads = kThreads}));
+    for (const auto& pixel : picture.pixels) EXPECT_EQ(pixel[1], 2) << integrator;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     , Furnace,
     ::testing::Values(FurnaceCase{"diffuse", diffuse("0.7"), 0.7, 2},

@@ -22,15 +22,36 @@ class LookedThrough : public SceneFolder {
  protected:
   /// A plane of this material, seen from straight above and lit by a point or by what else `more` holds.
   statistics::Picture render(const std::string& bsdf, const std::string& more, RenderOptions options = {},
-                             const std::string& integrator = "path") const {
+                             const std::string& integrator = "path", const std::string& placed = "") const {
     if (!options.samples_per_pixel) options.samples_per_pixel = 1024;
     options.threads = kThreads;
-    const std::string plane = R"(<shape type="rectangle"><transform name="to_world"><scale value="10"/></transform>)";
+    const std::string plane =
+        R"(<shape type="rectangle"><transform name="to_world"><scale value="10"/>)" + placed + "</transform>";
     return picture_of(render_image(load_elements("<integrator type=\"" + integrator + "\">" + integer("max_depth", 3) +
                                                  "</integrator>" + camera(kSize) + plane + bsdf + "</shape>" + more),
                                    options));
   }
   statistics::Picture under_point(const std::string& bsdf) const { return render(bsdf, kPoint); }
+  /// The plane shows its back.
+  statistics::Picture back_under_point(const std::string& bsdf) const {
+    return render(bsdf, kPoint, {}, "path", R"(<rotate y="1" angle="180"/>)");
+  }
+  /// Heights that rise by 1 with u. What bumps of them look like, `scale` times as high, around `inside`.
+  std::string ramp_around(double scale, const std::string& inside) const {
+    Image ramp;
+    ramp.width = 64;
+    ramp.height = 2;
+    for (const char* name : {"R", "G", "B"}) {
+      auto& values = ramp.channel(name).values;
+      for (int i = 0; i < 128; ++i) values[static_cast<std::size_t>(i)] = static_cast<float>(i % 64) / 64.0f;
+    }
+    EXPECT_TRUE(write_image(path("ramp.exr"), ramp));
+    return R"(<bsdf type="bumpmap"><texture name="any" type="bitmap"><string name="filename" value="ramp.exr"/>
+      <boolean name="raw" value="true"/></texture><float name="scale" value=")" +
+           std::to_string(scale) + R"("/><boolean name="use_shadowing_function" value="false"/>
+      <boolean name="flip_invalid_normals" value="false"/>)" +
+           inside + "</bsdf>";
+  }
   static inline const std::string kPoint = R"(<emitter type="point"><point name="position" value="1, 2, 3"/>
     <float name="intensity" value="50"/></emitter>)";
 };
@@ -145,11 +166,11 @@ TEST_F(LookedThrough, AMaskShowsWhatIsBehindIt) {
               {2, 1, 0.5});
 }
 
-std::string normal_map(bool shadowing, const closed_form::Vec& n) {
+std::string normal_map(bool shadowing, const closed_form::Vec& n, const std::string& inside = diffuse("0.6")) {
   return "<bsdf type=\"normalmap\"><texture name=\"normalmap\" type=\"rawconstant\"><vector name=\"value\" value=\"" +
          std::to_string((n.x + 1) / 2) + ", " + std::to_string((n.y + 1) / 2) + ", " + std::to_string((n.z + 1) / 2) +
          "\"/></texture><boolean name=\"use_shadowing_function\" value=\"" + (shadowing ? "true" : "false") + "\"/>" +
-         diffuse("0.6") + "</bsdf>";
+         inside + "</bsdf>";
 }
 
 TEST_F(LookedThrough, NormalMapsTurnTheNormal) {
@@ -185,22 +206,67 @@ TEST_F(LookedThrough, NormalMapsTurnTheNormalForPathsFromTheLightToo) {
 }
 
 TEST_F(LookedThrough, BumpMapsFollowTheSlopeOfTheirTexture) {
-  Image ramp;
-  ramp.width = 64;
-  ramp.height = 2;
-  for (const char* name : {"R", "G", "B"}) {
-    auto& values = ramp.channel(name).values;
-    for (int i = 0; i < 128; ++i) values[static_cast<std::size_t>(i)] = static_cast<float>(i % 64) / 64.0f;
-  }
-  ASSERT_TRUE(write_image(path("ramp.exr"), ramp));
   // Heights of 10 u on a plane of side 20: the slope is a half, towards +x.
   const double length = std::sqrt(1.25);
   const double wanted = tilted_plane({-0.5 / length, 0, 1 / length}, [](const closed_form::Vec&) { return 1.0; });
-  const auto picture = under_point(R"(<bsdf type="bumpmap"><texture name="any" type="bitmap">
-    <string name="filename" value="ramp.exr"/><boolean name="raw" value="true"/></texture><float name="scale" value="10"/>
-    <boolean name="use_shadowing_function" value="false"/><boolean name="flip_invalid_normals" value="false"/>)" +
-                                   diffuse("0.6") + "</bsdf>");
+  const auto picture = under_point(ramp_around(10, diffuse("0.6")));
   expect_mean(picture, {wanted, wanted, wanted});
+}
+
+double tilted_plane(const closed_form::Vec& normal) {
+  return tilted_plane(normal, [](const closed_form::Vec&) { return 1.0; });
+}
+std::string twosided(const std::string& inside) { return "<bsdf type=\"twosided\">" + inside + "</bsdf>"; }
+
+/// Turned by half a turn about y, the plane has u along -x and its normal along -z.
+TEST_F(LookedThrough, WhatStandsAroundAMapDecidesHowItsBackLooks) {
+  const closed_form::Vec n = normalize(closed_form::Vec{0.3, -0.2, 1});
+  const double mirrored = tilted_plane({-n.x, n.y, n.z}), turned = tilted_plane({n.x, -n.y, n.z});
+  ASSERT_GT(std::abs(mirrored - turned), 0.02 * turned);
+  // twosided mirrors directions before the map sees them; inside of the map it turns the map's normal to the viewer.
+  expect_mean(back_under_point(twosided(normal_map(false, n))), {mirrored, mirrored, mirrored});
+  expect_mean(back_under_point(normal_map(false, n, twosided(diffuse("0.6")))), {turned, turned, turned});
+  expect_mean(back_under_point(twosided(weighted("mask", "opacity", "1", normal_map(false, n)))),
+              {mirrored, mirrored, mirrored});
+  expect_mean(back_under_point(twosided(normal_map(false, n, twosided(diffuse("0.6"))))),
+              {mirrored, mirrored, mirrored});
+  // Heights of 10 u on a plane of side 20, u along -x: it rises towards -x, from the back too if it is mirrored.
+  const closed_form::Vec hill = normalize(closed_form::Vec{0.5, 0, 1});
+  const double out = tilted_plane({hill.x, 0, hill.z}), in = tilted_plane({-hill.x, 0, hill.z});
+  ASSERT_GT(std::abs(out - in), 0.02 * out);
+  expect_mean(back_under_point(twosided(ramp_around(10, diffuse("0.6")))), {out, out, out});
+  expect_mean(back_under_point(ramp_around(10, twosided(diffuse("0.6")))), {in, in, in});
+  // With two inside, the back is the second one's.
+  expect_mean(back_under_point(twosided(normal_map(false, {0, 0, 1}, diffuse("0.1")) + normal_map(false, n))),
+              {mirrored, mirrored, mirrored});
+}
+
+TEST_F(LookedThrough, MapsInsideEachOtherWorkOnTheFrameAround) {
+  const closed_form::Vec first = normalize(closed_form::Vec{0.4, 0.3, 1}),
+                         second = normalize(closed_form::Vec{-0.2, 0.5, 1});
+  const auto within = [](const closed_form::Vec& n, const closed_form::Vec& local) {
+    const closed_form::Vec s = normalize(closed_form::Vec{1, 0, 0} - n * n.x), t = cross(n, s);
+    return s * local.x + t * local.y + n * local.z;
+  };
+  const auto bumped = [](const closed_form::Vec& n, double height) {
+    const auto moved = [&](const closed_form::Vec& tangent, double slope) {
+      return tangent + n * (slope - dot(n, tangent));
+    };
+    return normalize(cross(moved({20, 0, 0}, height), moved({0, 20, 0}, 0)));
+  };
+  const auto expect_normal = [&](const std::string& bsdf, const closed_form::Vec& n) {
+    const double wanted = tilted_plane(n);
+    expect_mean(under_point(bsdf), {wanted, wanted, wanted});
+  };
+  expect_normal(normal_map(false, first, normal_map(false, second)), within(first, second));
+  expect_normal(normal_map(false, first, ramp_around(10, diffuse("0.6"))), bumped(first, 10));
+  const closed_form::Vec slope = bumped({0, 0, 1}, 10);
+  expect_normal(ramp_around(10, normal_map(false, second)), within(slope, second));
+  ASSERT_GT(std::abs(tilted_plane(bumped(second, 10)) - tilted_plane(within(slope, second))), 5e-3);
+  // Where two normals that follow each other see the light from different sides there is none, at each of them.
+  const std::string steep = normal_map(false, normalize(closed_form::Vec{0.9, 0, 0.3}));
+  const double least = mean(under_point(normal_map(false, {0, 0, 1}, steep)))[0];
+  EXPECT_NEAR(least, mean(under_point(steep))[0], 1e-3 * least);
 }
 
 }  // namespace

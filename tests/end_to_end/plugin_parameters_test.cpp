@@ -12,6 +12,8 @@
 
 #include "base/text.h"
 #include "compile/compile_testing.h"
+#include "scene/base_parameters.h"
+#include "tests/end_to_end/format_parameters.h"
 #include "tests/end_to_end/plugin_parameters.h"
 
 namespace norrsken::testing {
@@ -44,7 +46,8 @@ const Files& assets() {
 class EveryPlugin : public ::testing::TestWithParam<Plugin> {
  protected:
   /// What is complained about if these elements are in the plugin, in a scene that is fine without it.
-  static std::vector<std::string> errors(const std::string& inside) {
+  static std::vector<std::string> errors(const std::string& inside) { return messages(inside, "error: "); }
+  static std::vector<std::string> messages(const std::string& inside, std::string_view severity) {
     const Plugin& p = GetParam();
     const std::string kind = p.kind;
     std::string node = fmt::format(R"(<{0} type="{1}"{2}>{3}</{0}>)", kind, p.name,
@@ -68,9 +71,9 @@ class EveryPlugin : public ::testing::TestWithParam<Plugin> {
       if (!is_group) scene += R"(<shape type="shapegroup" id="group"><shape type="sphere"/></shape>)";
       scene += node;
     }
-    std::vector<std::string> errors = compile_elements(scene, assets()).messages();
-    std::erase_if(errors, [](const std::string& message) { return !message.starts_with("error: "); });
-    return errors;
+    std::vector<std::string> messages = compile_elements(scene, assets()).messages();
+    std::erase_if(messages, [&](const std::string& message) { return !message.starts_with(severity); });
+    return messages;
   }
   /// `needed` and the required parameters but this one.
   static std::string context(std::string_view without) {
@@ -132,6 +135,56 @@ TEST_P(EveryPlugin, NamesItsParametersIfOneIsUnused) {
   const auto complaints = errors(context("") + R"(<float name="zzz" value="1"/>)");
   EXPECT_THAT(complaints, ElementsAre(fmt::format("error: unused parameter 'zzz' of {} '{}' [{}]", GetParam().kind,
                                                   GetParam().name, accepted.empty() ? "no parameters" : accepted)));
+}
+
+std::set<std::string> names_of_format(const Plugin& plugin) {
+  std::set<std::string> names;
+  for (const FormatPlugin& of_format : kFormat) {
+    if (of_format.kind != std::string_view(plugin.kind) || of_format.name != std::string_view(plugin.name)) continue;
+    for (const TextPiece& piece : split(of_format.parameters, " ")) names.emplace(piece.text);
+  }
+  return names;
+}
+
+std::string element_of(const BaseParameter& parameter) {
+  switch (parameter.type) {
+    case BaseParameter::Type::boolean:
+      return element("boolean", std::string(parameter.name), "true");
+    case BaseParameter::Type::integer:
+      return element("integer", std::string(parameter.name), "16");
+    case BaseParameter::Type::number:
+      return element("float", std::string(parameter.name), "2");
+    default:
+      return element("transform", std::string(parameter.name), R"(<rotate z="1" angle="90"/>)");
+  }
+}
+
+/// Every name of the format is one of the table's, or one of the base classes' that have no effect: which is told.
+TEST_P(EveryPlugin, TakesWhateverTheFormatDoes) {
+  std::set<std::string> rows;
+  for (const Row& row : GetParam().rows) rows.insert(row.name);
+  for (const std::string& name : names_of_format(GetParam())) {
+    SCOPED_TRACE(name);
+    if (rows.contains(name)) continue;
+    const BaseParameter* base = find_base_parameter(GetParam().kind, GetParam().name, name);
+    ASSERT_NE(base, nullptr);
+    EXPECT_THAT(errors(context("") + element_of(*base)), IsEmpty());
+    EXPECT_THAT(messages(context("") + element_of(*base), "note: "),
+                ::testing::Contains(::testing::StartsWith(fmt::format("note: '{}' of ", name))));
+    EXPECT_THAT(errors(context("") + element("string", name, "wrong")), ::testing::SizeIs(1));
+  }
+}
+
+/// A name that the format does not know is somebody's error.
+TEST(BaseParameters, AreTheFormats) {
+  for (const BaseParameter& row : base_parameters()) {
+    const auto has = [&](const FormatPlugin& plugin) {
+      if (plugin.kind != row.kind || (!row.plugin.empty() && plugin.name != row.plugin)) return false;
+      const auto names = split(plugin.parameters, " ");
+      return std::ranges::any_of(names, [&](const TextPiece& piece) { return piece.text == row.name; });
+    };
+    EXPECT_TRUE(std::ranges::any_of(kFormat, has)) << row.kind << " " << row.name;
+  }
 }
 
 /// "bsdf diffuse", "bsdf conductor", ...

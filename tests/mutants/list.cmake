@@ -171,10 +171,10 @@ norrsken_mutant(infinite_cosine_ratios wave/shade_particles.h
   "max_component(scattered) != Float(0.0f)" "max_component(scattered * factor) != Float(0.0f)"
   IN rendering BY "*DroppedSamples.AreNone*" SAYING "Expected equality of these values:\n *render.sideways")
 norrsken_mutant(normal_map_without_a_normal wave/perturbed_frame.h
-  "select(lanes, frame.n, seen.n)" "seen.n"
+  "select(lanes, perturbed.frame.n, surface.frame.n)" "surface.frame.n"
   IN rendering BY "LookedThrough.NormalMaps*" SAYING "The difference between got")
 norrsken_mutant(normal_map_without_shadowing wave/perturbed_frame.h
-  "zero_unless(cos_theta * cos_perturbed > Float(0.0f), shadowing)" "Float(1.0f)"
+  "zero_unless(cos_theta * cos_inside > Float(0.0f), shadowing)" "Float(1.0f)"
   IN rendering BY "LookedThrough.NormalMaps*" SAYING "The difference between got")
 
 # --- the film ----------------------------------------------------------------------------------------------------------

@@ -1,0 +1,101 @@
+#include "compile/scene_children.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/numbers.h"
+#include "base/text.h"
+
+namespace norrsken {
+namespace {
+
+bool is_light_of_a_shape(const Node& emitter) {
+  return emitter.plugin == "area" || emitter.plugin == "directionalarea";
+}
+
+void warn_of_unused(const Node& node, Diagnostics& diagnostics) {
+  diagnostics.warning(node.location, fmt::format("nothing refers to {} {}, which has no effect by itself", node.kind,
+                                                 quoted(node.plugin)));
+}
+
+std::string describe_sensors(const std::vector<const Node::Child*>& sensors) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const std::string& id = sensors[i]->node->id;
+    words.push_back(fmt::format("{}{}", i, id.empty() ? "" : " or " + id));
+  }
+  return listed(words);
+}
+
+}  // namespace
+
+std::set<const Node*> nodes_inside_of_others(const Node& scene) {
+  std::set<const Node*> inside, walked;
+  std::vector<const Node*> open{&scene};
+  while (!open.empty()) {
+    const Node& node = *open.back();
+    open.pop_back();
+    if (!walked.insert(&node).second) continue;
+    for (const Node::Child& child : node.children) {
+      if (&node != &scene) inside.insert(child.node.get());
+      open.push_back(child.node.get());
+    }
+  }
+  return inside;
+}
+
+void take_definitions(Parameters& scene, const std::set<const Node*>& inside) {
+  for (const char* kind : {"film", "medium", "phase", "rfilter", "sampler", "volume"}) {
+    for (const Node::Child* child : scene.children(kind)) {
+      if (!inside.contains(child->node.get())) warn_of_unused(*child->node, scene.diagnostics());
+    }
+  }
+}
+
+const Node::Child* integrator_of_scene(Parameters& scene, const std::set<const Node*>& inside) {
+  auto integrators = scene.children("integrator");
+  std::erase_if(integrators, [&](const Node::Child* child) { return inside.contains(child->node.get()); });
+  if (integrators.size() > 1)
+    scene.diagnostics().error(integrators[1]->location, "scene has more than one integrator", "one integrator");
+  return integrators.empty() ? nullptr : integrators[0];
+}
+
+std::vector<const Node*> emitters_of_scene(Parameters& scene, const std::set<const Node*>& inside) {
+  std::vector<const Node*> emitters;
+  for (const Node::Child* child : scene.children("emitter")) {
+    const Node& node = *child->node;
+    if (!is_light_of_a_shape(node) || (node.id.empty() && !inside.contains(&node))) {
+      emitters.push_back(&node);
+    } else if (!inside.contains(&node)) {
+      warn_of_unused(node, scene.diagnostics());
+    }
+  }
+  return emitters;
+}
+
+const Node* choose_sensor(Parameters& scene, const std::optional<std::string>& choice) {
+  const std::vector<const Node::Child*> sensors = scene.children("sensor");
+  if (sensors.empty()) return nullptr;
+  if (!choice) {
+    for (std::size_t i = 1; i < sensors.size(); ++i) {
+      scene.diagnostics().warning(sensors[i]->location, "only the scene's first sensor is used, this one is left aside",
+                                  fmt::format("--sensor {} for this one", i));
+    }
+    return sensors[0]->node.get();
+  }
+  const auto named = std::ranges::find_if(sensors, [&](const auto* sensor) { return sensor->node->id == *choice; });
+  if (!choice->empty() && named != sensors.end()) return (*named)->node.get();
+  std::int64_t number = -1;
+  if (parse_integer(*choice, number) == NumberStatus::ok && number >= 0 &&
+      number < static_cast<std::int64_t>(sensors.size()))
+    return sensors[static_cast<std::size_t>(number)]->node.get();
+  std::vector<std::string> ids;
+  for (const Node::Child* sensor : sensors) ids.push_back(sensor->node->id);
+  scene.diagnostics().error(
+      {}, fmt::format("--sensor: the scene has no sensor {}{}", quoted(*choice), did_you_mean(*choice, ids)),
+      describe_sensors(sensors));
+  return nullptr;
+}
+
+}  // namespace norrsken

@@ -1,0 +1,143 @@
+#include "formats/other_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.h"
+
+namespace norrsken {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::string_view kByBlender =
+    "a scene of Mitsuba's XML; Blender's add-on mitsuba-blender writes one (File, Export, Mitsuba)";
+constexpr std::string_view kImage =
+    "a scene; images are a part of it as <texture type=\"bitmap\"> or <emitter type=\"envmap\">";
+constexpr std::string_view kUnpacked = "the file that is packed in it; unpack it first";
+
+struct Signature {
+  std::string_view start, what, accepted;
+};
+constexpr Signature kSignatures[] = {
+    {"\x76\x2f\x31\x01"sv, "an OpenEXR image", kImage},
+    {"\x89PNG"sv, "a PNG image", kImage},
+    {"\xff\xd8\xff"sv, "a JPEG image", kImage},
+    {"#?RADIANCE"sv, "a Radiance HDR image", kImage},
+    {"#?RGBE"sv, "a Radiance HDR image", kImage},
+    {"II*\0"sv, "a TIFF image", kImage},
+    {"MM\0*"sv, "a TIFF image", kImage},
+    {"PF\n"sv, "a PFM image", kImage},
+    {"Pf\n"sv, "a PFM image", kImage},
+    {"P6\n"sv, "a PPM image", kImage},
+    {"BLENDER"sv, "a Blender file", kByBlender},
+    {"\x28\xb5\x2f\xfd"sv, "a packed file (Zstandard), such as Blender's", kByBlender},
+    {"\x1f\x8b"sv, "a packed file (gzip)", kUnpacked},
+    {"PK\x03\x04"sv, "a packed file (ZIP)", kUnpacked},
+    {"BZh"sv, "a packed file (bzip2)", kUnpacked},
+    {"\xfd\x37zXZ"sv, "a packed file (xz)", kUnpacked},
+    {"glTF"sv, "a glTF scene", kByBlender},
+    {"PXR-USDC"sv, "a USD scene", kByBlender},
+    {"#usda"sv, "a USD scene", kByBlender},
+    {"Kaydara FBX"sv, "an FBX scene", kByBlender},
+    {"\x89Norrsk\n"sv, "a checkpoint of this program", "a scene; 'norrsken merge' makes an image of a checkpoint"},
+    {"%PDF"sv, "a PDF document", "a scene"},
+};
+
+bool has_extension(std::string_view path, std::string_view extension) {
+  return path.size() > extension.size() && equal_ignoring_case(path.substr(path.size() - extension.size()), extension);
+}
+
+std::string_view file_name(std::string_view path) { return path.substr(path.rfind('/') + 1); }
+
+std::string in_xml(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&') {
+      result += "&amp;";
+    } else if (c == '<') {
+      result += "&lt;";
+    } else if (c == '"') {
+      result += "&quot;";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string scene_around(std::string_view path, std::string_view plugin) {
+  return fmt::format(
+      "a scene that has the mesh, such as this one beside it\n"
+      "<scene version=\"3.0.0\">\n"
+      "  <sensor type=\"perspective\"><transform name=\"to_world\"><lookat origin=\"3 2 4\" target=\"0 0 0\" up=\"0 1 "
+      "0\"/>"
+      "</transform></sensor>\n"
+      "  <emitter type=\"constant\"/>\n"
+      "  <shape type=\"{}\"><string name=\"filename\" value=\"{}\"/></shape>\n"
+      "</scene>",
+      plugin, in_xml(file_name(path)));
+}
+
+// Whether one of the first lines begins with one of the words and a blank.
+bool has_line(std::string_view text, std::initializer_list<std::string_view> words) {
+  for (int lines = 0; lines < 200 && !text.empty(); ++lines) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line = trim(text.substr(0, end));
+    for (const std::string_view word : words) {
+      if (line.starts_with(word) &&
+          (line.size() == word.size() || line[word.size()] == ' ' || line[word.size()] == '\t'))
+        return true;
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return false;
+}
+
+bool contains(std::string_view text, std::string_view word) { return text.find(word) != std::string_view::npos; }
+
+}  // namespace
+
+std::optional<OtherFile> recognise_other_file(const std::string& path, std::string_view bytes) {
+  const auto is = [&path](std::string_view what, std::string_view accepted) {
+    // What is a scene of another format is not to be told that it is none.
+    const std::string_view wanted = what.ends_with(" scene") ? "a scene of Mitsuba's XML" : "a scene";
+    return OtherFile{fmt::format("{} is {}, not {}", quoted(file_name(path), 200), what, wanted),
+                     std::string(accepted)};
+  };
+  for (const Signature& signature : kSignatures) {
+    if (bytes.starts_with(signature.start)) return is(signature.what, signature.accepted);
+  }
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return is("a PLY mesh", scene_around(path, "ply"));
+  if (has_extension(path, ".serialized") && bytes.starts_with("\x1c\x04"))
+    return is("a mesh file of Mitsuba", scene_around(path, "serialized"));
+
+  std::string_view text = trim(bytes.substr(0, 1 << 16));
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (text.starts_with('<')) {
+    const std::string_view head = text.substr(0, 1000);
+    const bool html =
+        equal_ignoring_case(head.substr(0, 14), "<!doctype html") || equal_ignoring_case(head.substr(0, 5), "<html");
+    if (html) return is("a page of HTML", "a scene; was the page of a download saved in its place?");
+    if (contains(head, "<COLLADA")) return is("a COLLADA scene", kByBlender);
+    return std::nullopt;
+  }
+  if (text.empty()) return std::nullopt;
+  if (text.starts_with('{')) {
+    if (contains(text, "\"asset\"") && (contains(text, "\"version\"") || has_extension(path, ".gltf")))
+      return is("a glTF scene", kByBlender);
+    return is("JSON", "a scene of Mitsuba's XML");
+  }
+  if (text.starts_with("version https://git-lfs"))
+    return is("the address of a file in Git LFS", "the file itself; 'git lfs pull' fetches it");
+  if (has_line(text, {"WorldBegin", "Camera", "LookAt", "Film", "Integrator", "Sampler"}))
+    return is("a pbrt scene", "a scene of Mitsuba's XML; pbrt's files are not read");
+  if (has_extension(path, ".stl") || text.starts_with("solid "))
+    return is("an STL mesh", "a scene; save the mesh as PLY or OBJ for it");
+  if (has_line(text, {"newmtl"})) return is("a material library of an OBJ mesh", "a scene of Mitsuba's XML");
+  if (has_line(text, {"v", "vn", "vt", "f", "mtllib"})) return is("a Wavefront OBJ mesh", scene_around(path, "obj"));
+  return std::nullopt;
+}
+
+}  // namespace norrsken

@@ -1,0 +1,101 @@
+// Scenes in other encodings than UTF-8.
+#include "formats/xml_encoding.h"
+
+#include <gtest/gtest.h>
+
+#include "formats/reader_testing.h"
+
+namespace norrsken {
+namespace {
+
+enum class Order { big, little };
+
+// The text as UTF-16, without a mark; it may hold characters beyond the first 65536.
+std::string utf16(const std::u16string& text, Order order) {
+  std::string bytes;
+  for (const char16_t unit : text) {
+    const char high = static_cast<char>(unit >> 8), low = static_cast<char>(unit & 0xFF);
+    bytes += order == Order::big ? high : low;
+    bytes += order == Order::big ? low : high;
+  }
+  return bytes;
+}
+
+std::string decoded(std::string bytes) {
+  Diagnostics diagnostics;
+  if (!decode_xml(bytes, "room.xml", diagnostics)) return "error: " + diagnostics.all().at(0).message;
+  EXPECT_EQ(to_text(diagnostics), "");
+  return bytes;
+}
+
+const std::string kMarkBig = "\xFE\xFF", kMarkLittle = "\xFF\xFE";
+
+TEST(XmlEncoding, Utf16WithAndWithoutAMark) {
+  const std::u16string text = u"<?xml version='1.0'?><a b='\u00e9\u20ac\U0001F600'/>";
+  const std::string expected = "<?xml version='1.0'?><a b='\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80'/>";
+  EXPECT_EQ(decoded(utf16(text, Order::big)), expected);
+  EXPECT_EQ(decoded(utf16(text, Order::little)), expected);
+  EXPECT_EQ(decoded(kMarkBig + utf16(text, Order::big)), expected);
+  EXPECT_EQ(decoded(kMarkLittle + utf16(text, Order::little)), expected);
+}
+
+TEST(XmlEncoding, BrokenUtf16) {
+  const std::string damaged = "error: the file is UTF-16, but damaged or cut off";
+  EXPECT_EQ(decoded(kMarkLittle + "<"), damaged);
+  for (const std::u16string text : {u"<\xD800", u"<\xD800x", u"<\xDC00\xD800"})
+    EXPECT_EQ(decoded(kMarkBig + utf16(text, Order::big)), damaged);
+  EXPECT_EQ(decoded(std::string("\xFF\xFE\0\0<\0\0\0", 8)), "error: the file is UTF-32");
+  EXPECT_EQ(decoded(std::string("\0\0\0<", 4)), "error: the file is UTF-32");
+}
+
+TEST(XmlEncoding, SingleBytesAsTheyAreDeclared) {
+  const auto with = [](const std::string& encoding, const std::string& text) {
+    return "<?xml version=\"1.0\" encoding=\"" + encoding + "\"?><a b='" + text + "'/>";
+  };
+  for (const char* name : {"ISO-8859-1", "iso-8859-1", "latin1"})
+    EXPECT_EQ(decoded(with(name, "caf\xE9 \xA4")), with(name, "caf\xC3\xA9 \xC2\xA4"));
+  EXPECT_EQ(decoded(with("windows-1252", "\x80\x93\xFF")), with("windows-1252", "\xE2\x82\xAC\xE2\x80\x9C\xC3\xBF"));
+  EXPECT_EQ(decoded("<?xml version='1.0' encoding = 'Latin1' ?>\xE9"),
+            "<?xml version='1.0' encoding = 'Latin1' ?>\xC3\xA9");
+  // Declared as one thing, saved as another: what is UTF-8 is read.
+  EXPECT_EQ(decoded(with("utf-16", "\xC3\xA9")), with("utf-16", "\xC3\xA9"));
+  EXPECT_EQ(decoded(with("Shift_JIS", "abc")), with("Shift_JIS", "abc"));
+  EXPECT_EQ(decoded("\xEF\xBB\xBF" + with("ISO-8859-1", "\xC3\xA9")), with("ISO-8859-1", "\xC3\xA9"))
+      << "the mark wins";
+}
+
+TEST(XmlEncoding, OthersAreRefusedAtTheirFirstByte) {
+  EXPECT_EQ(
+      complaints_about("<?xml version=\"1.0\" encoding=\"Shift_JIS\"?>\n<scene version=\"3.0.0\" a=\"\x83\x65\"/>"),
+      "room.xml:2:27: error: byte 0x83 is not UTF-8, and the encoding 'Shift_JIS' is not known\n"
+      "    2 | <scene version=\"3.0.0\" a=\"\xEF\xBF\xBD"
+      "e\"/>\n"
+      "      |                           ^\n"
+      "accepted: UTF-8, UTF-16, ISO-8859-1, windows-1252; a first line <?xml version=\"1.0\" encoding=\"...\"?> tells "
+      "it");
+  EXPECT_EQ(decoded("<a b='\xE9'/>"), "error: byte 0xe9 is not UTF-8");
+  EXPECT_EQ(decoded("<?xml encoding='ISO-8859-1'"), "<?xml encoding='ISO-8859-1'");
+}
+
+TEST(XmlEncoding, PlacesAreThoseOfTheText) {
+  const std::u16string text = u"<scene version=\"3.0.0\">\n  <string name=\"\u00e9\" value=\"\"/><bsfd/>\n</scene>";
+  const std::string expected =
+      "room.xml:2:31: error: unknown element 'bsfd', did you mean 'bsdf'?\n"
+      "    2 |   <string name=\"\xC3\xA9\" value=\"\"/><bsfd/>\n"
+      "      |                              ^~~~~\n";
+  for (const Order order : {Order::big, Order::little})
+    EXPECT_EQ(complaints_about(utf16(text, order)).substr(0, expected.size()), expected);
+}
+
+TEST(XmlEncoding, AWholeSceneInUtf16) {
+  Diagnostics diagnostics;
+  const auto scene = read_scene(utf16(u"<scene version=\"3.0.0\"><shape type=\"obj\"><string name=\"filename\" "
+                                      u"value=\"\u00e9.obj\"/></shape></scene>",
+                                      Order::little),
+                                {}, diagnostics);
+  EXPECT_EQ(to_text(diagnostics), "");
+  EXPECT_EQ(std::get<std::string>(scene->scene->children.at(0).node->properties.at(0).value), "\xC3\xA9.obj");
+}
+
+}  // namespace
+}  // namespace norrsken

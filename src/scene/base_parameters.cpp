@@ -1,0 +1,44 @@
+#include "scene/base_parameters.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace norrsken {
+namespace {
+
+using Type = BaseParameter::Type;
+
+// Source: what Mitsuba 3.9.1 takes when each is given to each of its plugins.
+constexpr BaseParameter kTable[] = {
+    {"bsdf", "twosided", "allow_transmission", Type::boolean, ""},
+    {"emitter", "constant", "to_world", Type::transform, ""},
+    {"film", "", "compensate", Type::boolean, ""},
+    {"integrator", "", "block_size", Type::integer, ""},
+    {"integrator", "", "samples_per_pass", Type::integer, ""},
+    {"integrator", "", "timeout", Type::number, "--time"},
+    {"integrator", "aov", "hide_emitters", Type::boolean, "hide_emitters of the integrator inside"},
+    {"integrator", "depth", "hide_emitters", Type::boolean, ""},
+    {"integrator", "moment", "hide_emitters", Type::boolean, "hide_emitters of the integrator inside"},
+    {"integrator", "volpathmis", "use_spectral_mis", Type::boolean, ""},
+    {"sensor", "", "focus_distance", Type::number, "sensor 'thinlens'"},
+    {"sensor", "", "shutter_close", Type::number, ""},
+    {"sensor", "", "shutter_open", Type::number, ""},
+    {"shape", "", "silhouette_sampling_weight", Type::number, ""},
+    {"shape", "rectangle", "face_normals", Type::boolean, ""},
+    {"shape", "shapegroup", "to_world", Type::transform, "to_world of the instances and of the shapes inside"},
+    {"spectrum", "blackbody", "wavelength_max", Type::number, ""},
+    {"spectrum", "blackbody", "wavelength_min", Type::number, ""},
+};
+
+}  // namespace
+
+std::span<const BaseParameter> base_parameters() { return kTable; }
+
+const BaseParameter* find_base_parameter(std::string_view kind, std::string_view plugin, std::string_view name) {
+  const auto* found = std::ranges::find_if(kTable, [&](const BaseParameter& row) {
+    return row.kind == kind && row.name == name && (row.plugin.empty() || row.plugin == plugin);
+  });
+  return found == std::end(kTable) ? nullptr : found;
+}
+
+}  // namespace norrsken

@@ -1,0 +1,160 @@
+// The picture of flat meshes must not depend on the accelerator: whatever differs between coplanar triangles is seen of
+// each, although `planes` makes one polygon of those that differ in nothing.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "accel/polygons.h"
+#include "compile/compile.h"
+#include "norrsken/image.h"
+#include "tests/end_to_end/param_name.h"
+#include "tests/end_to_end/scene_folder.h"
+
+namespace norrsken::end_to_end {
+namespace {
+
+constexpr int kSize = 24;
+
+/// Two triangles of a square: `faces` is the index lists with what belongs to each.
+std::string obj(const std::string& texcoords, const std::string& faces) {
+  return "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n" + texcoords + faces;
+}
+const std::string kSquareUv = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+const std::string kOneMap = obj(kSquareUv, "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
+const std::string kIslands = obj(kSquareUv, "f 1/1 2/2 3/3\nf 1/3 3/1 4/2\n");
+const std::string kTurned = obj(kSquareUv, "f 1/1 2/2 3/3\nf 1/2 3/4 4/1\n");
+const std::string kHalfMapped = obj(kSquareUv, "f 1/1 2/2 3/3\nf 1 3 4\n");
+const std::string kNotMapped = obj("", "f 1 2 3\nf 1 3 4\n");
+const std::string kTrapezoid =
+    "v -1 -1 0\nv 1 -1 0\nv 0.3 1 0\nv -0.3 1 0\n" + kSquareUv + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+
+std::string ply(const std::string& vertex_properties, const std::string& vertices, const std::string& face_properties,
+                const std::string& faces) {
+  return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n" +
+         vertex_properties + "element face 2\nproperty list uchar int vertex_indices\n" + face_properties +
+         "end_header\n" + vertices + faces;
+}
+const std::string kFaceColours =
+    ply("", "-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n", "property float red\nproperty float green\nproperty float blue\n",
+        "3 0 1 2 0.9 0.1 0.1\n3 0 2 3 0.1 0.9 0.1\n");
+const std::string kVertexColours =
+    ply("property float red\nproperty float green\nproperty float blue\n",
+        "-1 -1 0 0.9 0.1 0.1\n1 -1 0 0.1 0.9 0.1\n1 1 0 0.1 0.1 0.9\n-1 1 0 0.9 0.9 0.9\n", "", "3 0 1 2\n3 0 2 3\n");
+
+const std::string kChecks =
+    R"(<texture type="checkerboard" name="NAME"><transform name="to_uv"><scale x="3" y="5"/></transform></texture>)";
+std::string checks(const std::string& name) {
+  std::string texture = kChecks;
+  return texture.replace(texture.find("NAME"), 4, name);
+}
+std::string attribute(const std::string& name) {
+  return R"(<bsdf type="diffuse"><texture type="mesh_attribute" name="reflectance">)" + text("name", name) +
+         "</texture></bsdf>";
+}
+const std::string kChecked = R"(<bsdf type="diffuse">)" + checks("reflectance") + "</bsdf>";
+const std::string kGrey = diffuse("0.5");
+
+struct Case {
+  const char* name;
+  std::string mesh;
+  std::string inside;        ///< of the shape: a BSDF, an emitter
+  std::size_t polygons = 2;  ///< that `planes` may make of it
+  const char* file = "m.obj";
+  const char* aovs = "";
+};
+
+const Case kCases[] = {
+    {"one_map", kOneMap, kChecked, 1},
+    {"islands", kIslands, kChecked},
+    {"turned", kTurned, kChecked},
+    {"trapezoid", kTrapezoid, kChecked},
+    {"half_mapped", kHalfMapped, kChecked},
+    {"not_mapped", kNotMapped, kChecked},
+    {"islands_that_nothing_looks_at", kIslands, kGrey, 1},
+    {"not_mapped_and_plain", kNotMapped, kGrey, 1},
+    {"face_colours", kFaceColours, attribute("face_color"), 2, "m.ply"},
+    {"vertex_colours", kVertexColours, attribute("vertex_color"), 2, "m.ply"},
+    {"colours_that_nothing_looks_at", kFaceColours, kGrey, 1, "m.ply"},
+    {"bitmap", kIslands,
+     R"(<bsdf type="diffuse"><texture type="bitmap" name="reflectance">)" + text("filename", "ramp.exr") +
+         "</texture></bsdf>"},
+    {"deep_inside", kIslands,
+     R"(<bsdf type="twosided"><bsdf type="blendbsdf"><float name="weight" value="0.5"/>)" + kGrey +
+         R"(<bsdf type="mask">)" + checks("opacity") + kGrey + "</bsdf></bsdf></bsdf>"},
+    {"normal_map", kTurned,
+     R"(<bsdf type="normalmap"><rgb name="normalmap" value="0.8, 0.5, 0.9"/>)" + kGrey + "</bsdf>"},
+    {"bump_map", kTurned,
+     R"(<bsdf type="bumpmap"><texture type="bitmap" name="any">)" + text("filename", "ramp.exr") + "</texture>" +
+         kGrey + "</bsdf>"},
+    {"along_u", kTurned,
+     R"(<bsdf type="roughconductor"><float name="alpha_u" value="0.4"/><float name="alpha_v" value="0.05"/></bsdf>)"},
+    {"light", kIslands, R"(<emitter type="area">)" + checks("radiance") + "</emitter>"},
+    {"uv_layer", kIslands, kGrey, 2, "m.obj", "n:uv"},
+    {"tangent_layer", kTurned, kGrey, 2, "m.obj", "n:dp_du"},
+    {"triangle_layer", kOneMap, kGrey, 2, "m.obj", "n:prim_index"},
+    {"normal_layer", kNotMapped, kGrey, 1, "m.obj", "n:sh_normal"},
+};
+
+class Accelerators : public SceneFolder, public ::testing::WithParamInterface<Case> {
+ protected:
+  void write_scene() const {
+    const Case& c = GetParam();
+    Image ramp;
+    ramp.width = ramp.height = 8;
+    for (const char* name : {"R", "G", "B"}) {
+      auto& values = ramp.channel(name).values;
+      for (std::size_t i = 0; i < 64; ++i) values[i] = static_cast<float>(i % 8 + i / 8) / 16.0f;
+    }
+    ASSERT_TRUE(write_image(path("ramp.exr"), ramp));
+    write(c.file, c.mesh);
+    const std::string path_tracer = "<integrator type=\"path\">" + integer("max_depth", 2) + "</integrator>";
+    const std::string kind = std::string(c.file).ends_with("ply") ? "ply" : "obj";
+    write("scene.xml",
+          R"(<scene version="3.0.0">)" +
+              (*c.aovs == 0 ? path_tracer
+                            : R"(<integrator type="aov">)" + text("aovs", c.aovs) + path_tracer + "</integrator>") +
+              camera(kSize) + "<shape type=\"" + kind + "\">" + text("filename", c.file) + c.inside + "</shape>" +
+              R"(<emitter type="point"><point name="position" value="1, 0.5, 2"/></emitter></scene>)");
+  }
+};
+
+TEST_P(Accelerators, ShowTheSame) {
+  write_scene();
+  const Scene scene = load(path("scene.xml"));
+  const auto render = [&](const char* accelerator) {
+    // Every sample at the middle of a cell would meet the diagonal: Sobol' points do not.
+    return render_image(scene, {.samples_per_pixel = 16, .threads = kThreads, .accelerator = accelerator}, true);
+  };
+  const Image wanted = render("moller_trumbore");
+  bool any = false;
+  for (const char* accelerator : {"planes", "embree"}) {
+    const Image got = render(accelerator);
+    ASSERT_EQ(got.channels.size(), wanted.channels.size());
+    for (std::size_t c = 0; c < wanted.channels.size(); ++c) {
+      for (std::size_t i = 0; i < wanted.channels[c].values.size(); ++i) {
+        const float a = got.channels[c].values[i], b = wanted.channels[c].values[i];
+        any = any || b != 0;
+        ASSERT_NEAR(a, b, 1e-4f * std::max(1.0f, std::abs(b)))
+            << accelerator << ", " << wanted.channels[c].name << " of pixel " << i;
+      }
+    }
+  }
+  EXPECT_TRUE(any);
+}
+
+TEST_P(Accelerators, MergeWhatDiffersInNothing) {
+  write_scene();
+  const Scene scene = load(path("scene.xml"));
+  EXPECT_EQ(merge_triangles(scene.tables().tables).size(), GetParam().polygons);
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, Accelerators, ::testing::ValuesIn(kCases), kParamName);
+
+/// The room's triangles stay what they are made of.
+TEST(AcceleratorsMerge, TheRoom) {
+  const Scene scene = load("hexagon_room");
+  EXPECT_EQ(merge_triangles(scene.tables().tables).size(), 13u);
+}
+
+}  // namespace
+}  // namespace norrsken::end_to_end
