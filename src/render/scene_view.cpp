@@ -17,6 +17,9 @@ constexpr struct {
 } kAccels[] = {
     {"planes", AccelKind::planes}, {"moller_trumbore", AccelKind::moller_trumbore}, {"embree", AccelKind::embree}};
 
+/// Lanes without a hit read the first surface, which there has to be.
+constexpr SurfaceRecord kNoSurface{};
+
 }  // namespace
 
 AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes,
@@ -72,7 +75,7 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   view.positions = tables.positions.data();
   view.normals = tables.normals.empty() ? nullptr : tables.normals.data();
   view.triangle_vertices = tables.triangle_vertices.data();
-  view.surfaces = tables.surfaces.data();
+  view.surfaces = tables.surfaces.empty() ? &kNoSurface : tables.surfaces.data();
   view.shapes = tables.shapes.data();
   view.parameters = tables.parameters.data();
   view.texels = tables.texels.data();

@@ -245,7 +245,7 @@ TEST(MeshShape, WithoutTrianglesItIsNothing) {
                                        R"(<shape type="shapegroup" id="g">)" + mesh("a.ply") + R"(</shape>
                                        <shape type="instance"><ref id="g"/></shape>)",
                                    {{"a.ply", ply}, {"b.obj", kTriangle}});
-  EXPECT_THAT(c.messages(), Each("warning: the mesh has no faces, nothing of it is drawn"));
+  EXPECT_THAT(c.messages(), Each(::testing::StartsWith("warning: the mesh has no faces, nothing of it is drawn")));
   EXPECT_EQ(c.tables().triangle_count(), 1u);
 }
 

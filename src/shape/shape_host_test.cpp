@@ -62,13 +62,11 @@ TEST(Rectangle, MayBeFlattenedAcrossItsPlane) {
   EXPECT_THAT(plane(c, 0), Pointwise(FloatNear(1e-6f), {1.0f, 0.0f, 0.0f, 0.0f}));
 }
 
-TEST(Rectangle, RefusesPlacementsThatLeaveNothingOfIt) {
+TEST(Rectangle, WarnsOfPlacementsThatLeaveNothingOfIt) {
   EXPECT_THAT(compile_shape(rectangle(transform(R"(<scale x="0"/>)"))).messages(),
-              ElementsAre("error: no triangle of the shape has an area "
-                          "[triangles whose corners do not lie on one line]"));
+              ElementsAre("warning: no triangle of the shape has an area, nothing of it is drawn"));
   EXPECT_THAT(compile_shape(rectangle(transform(R"(<scale value="1e-25"/>)"))).messages(),
-              ElementsAre("error: no triangle of the shape has an area "
-                          "[triangles whose corners do not lie on one line]"));
+              ElementsAre("warning: no triangle of the shape has an area, nothing of it is drawn"));
   EXPECT_FALSE(compile_shape(rectangle(transform(R"(<scale value="1e18"/>)"))).scene);
 }
 
