@@ -76,8 +76,8 @@ TEST(Compile, ASensorIsChosenByNumberOrId) {
     EXPECT_THAT(c.messages(), IsEmpty()) << choice;
     EXPECT_EQ(c.tables().film.width, width) << choice << " (an id comes before a number)";
   }
-  EXPECT_EQ(with_sensor("left").info().items.at(0).detail, "--sensor 0, the one that is used");
-  EXPECT_EQ(with_sensor("left").info().items.at(1).detail, "--sensor 1");
+  EXPECT_EQ(with_sensor("left").info().items.at(1).detail, "--sensor 0, the one that is used");
+  EXPECT_EQ(with_sensor("left").info().items.at(2).detail, "--sensor 1");
   EXPECT_THAT(
       with_sensor("lefft").messages(),
       ElementsAre("error: --sensor: the scene has no sensor 'lefft', did you mean 'left'? [0 or left, 1, 2 or 1]"));
@@ -170,7 +170,7 @@ TEST(Compile, AnOldSceneIsUpgraded) {
   EXPECT_EQ(c.info().max_depth, 7);
   EXPECT_EQ(c.info().samples_per_pixel, 3);
   EXPECT_EQ(c.info().width, 5);
-  EXPECT_EQ(c.info().changes.size(), 11U);
+  EXPECT_EQ(c.info().changes.size(), 10U);
   EXPECT_EQ(c.info().changes.at(0),
             "scene.xml:2:21: integrator 'bdpt' is 'path', which finds the same light in another way");
 
