@@ -60,7 +60,7 @@ TEST(Compile, WhatTheBaseClassesReadIsNotedOnce) {
 )";
   EXPECT_THAT(compile_elements(sensor + kEmitter + shape + shape).messages(),
               ElementsAre("note: 'shutter_open' of a sensor has no effect here",
-                          "note: 'focus_distance' of a sensor has no effect here [sensor 'thinlens']",
+                          "note: 'focus_distance' of a sensor has no effect here (instead: sensor 'thinlens')",
                           "error: unused parameter 'focus_distanc' of sensor 'perspective', did you mean "
                           "'focus_distance'? [far_clip, focal_length, fov, fov_axis, near_clip, "
                           "principal_point_offset_x, principal_point_offset_y, to_world]",

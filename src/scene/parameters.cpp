@@ -357,8 +357,9 @@ void Parameters::accept_without_effect(const BaseParameter& parameter) {
   }
   if (diagnostics_.error_count() > errors) return;
   const std::string owner = parameter.plugin.empty() ? with_article(node_.kind) : name_of(node_);
-  diagnostics_.note(where(parameter.name), fmt::format("'{}' of {} has no effect here", parameter.name, owner),
-                    std::string(parameter.instead));
+  const std::string instead = parameter.instead.empty() ? "" : fmt::format(" (instead: {})", parameter.instead);
+  diagnostics_.note(where(parameter.name),
+                    fmt::format("'{}' of {} has no effect here{}", parameter.name, owner, instead));
 }
 
 void Parameters::finish() {
