@@ -51,7 +51,7 @@ TEST_F(EnvironmentAlone, ShowsItself) {
     ASSERT_TRUE(scene);
     for (const char* accel : {"auto", "planes", "embree", "moller_trumbore"}) {
       const auto picture =
-          picture_of(render_image(*scene, {.samples_per_pixel = 4, .threads = kThreads, .accel = accel}));
+          picture_of(render_image(*scene, {.samples_per_pixel = 4, .threads = kThreads, .accelerator = accel}));
       for (const auto& pixel : picture.pixels) EXPECT_EQ(pixel[1], 2) << integrator << " " << accel;
     }
   }
