@@ -51,6 +51,24 @@ TEST(Compile, WarnsOfASceneWithoutLight) {
   EXPECT_THAT(c.messages(), ElementsAre("warning: the scene has no emitter: its image is black"));
 }
 
+TEST(Compile, WhatTheBaseClassesReadIsNotedOnce) {
+  const std::string sensor = R"(<sensor type="perspective"><film type="hdrfilm"><rfilter type="box"/></film>
+    <float name="shutter_open" value="1"/>
+    <integer name="focus_distance" value="5"/>
+    <float name="focus_distanc" value="5"/>
+    <string name="shutter_close" value="late"/></sensor>)";
+  const std::string shape = R"(<shape type="sphere"><float name="silhouette_sampling_weight" value="2"/></shape>
+)";
+  EXPECT_THAT(compile_elements(sensor + kEmitter + shape + shape).messages(),
+              ElementsAre("note: 'shutter_open' of a sensor has no effect here",
+                          "note: 'focus_distance' of a sensor has no effect here (instead: sensor 'thinlens')",
+                          "error: unused parameter 'focus_distanc' of sensor 'perspective', did you mean "
+                          "'focus_distance'? [far_clip, focal_length, fov, fov_axis, near_clip, "
+                          "principal_point_offset_x, principal_point_offset_y, to_world]",
+                          "error: 'shutter_close' is a string [float]",
+                          "note: 'silhouette_sampling_weight' of a shape has no effect here"));
+}
+
 TEST(Compile, TheFirstSensorIsUsed) {
   const Compiled c = compile_elements(
       R"(<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="10"/><rfilter type="box"/></film></sensor>)" +
