@@ -43,7 +43,7 @@ std::string progress_line(const std::string& label, const RenderProgress& progre
   if (progress.seconds_left > 0) parts[kTime] += fmt::format(", {} left", coarse_duration(progress.seconds_left));
   if (progress.samples_per_second > 0)
     parts[kSpeed] = fmt::format("  {} Msamples/s", format_digits(progress.samples_per_second / 1e6));
-  if (progress.error.value >= 0) parts[kError] = "  error " + format_percent(progress.error.value);
+  if (progress.error.value > 0) parts[kError] = "  error " + format_percent(progress.error.value);
 
   const auto length = [&] {
     return std::accumulate(parts.begin(), parts.end(), 0,
@@ -54,12 +54,21 @@ std::string progress_line(const std::string& label, const RenderProgress& progre
   return fmt::format("{}", fmt::join(parts, "")).substr(0, static_cast<std::size_t>(std::max(columns, 0)));
 }
 
+std::string error_text(const RelativeError& error, double samples_per_pixel) {
+  if (error.value > 0) {
+    return fmt::format("estimated error {} ({} to {})", format_percent(error.value), format_percent(error.low),
+                       format_percent(error.high));
+  }
+  if (error.value == 0) return "no noise seen";
+  return samples_per_pixel < 2 ? "error not known before every pixel has two samples" : "error unknown: no light seen";
+}
+
 void add_error(nlohmann::ordered_json& object, const RelativeError& error) {
   object["relative_error"] = nullptr;
   object["relative_error_interval"] = nullptr;
   if (error.value < 0) return;
   object["relative_error"] = error.value;
-  object["relative_error_interval"] = {error.low, error.high};
+  if (error.value > 0) object["relative_error_interval"] = {error.low, error.high};
 }
 
 void ProgressMeter::start(std::string label) {

@@ -191,9 +191,7 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
                                  format_digits(rays / seconds / 1e6));
   if (statistics.samples_resumed > 0)
     text += fmt::format(", {} from the checkpoint", format_count(static_cast<double>(statistics.samples_resumed)));
-  if (statistics.error.value >= 0)
-    text += fmt::format(", estimated error {} ({} to {})", format_percent(statistics.error.value),
-                        format_percent(statistics.error.low), format_percent(statistics.error.high));
+  text += ", " + error_text(statistics.error, samples / pixels);
   text += fmt::format(" ({}, {}, {}, {})", statistics.isa, format_plural(statistics.lanes, "lane"),
                       format_plural(statistics.threads, "thread"), statistics.accelerator);
   print_note(text);

@@ -44,10 +44,10 @@ struct RenderOptions {
   double checkpoint_seconds = 60;  ///< from one writing to the next
 };
 
-/// Estimated RMSE of an image over its mean.
+/// Estimated RMSE of an image over its mean. Known as soon as every pixel has two samples, if there is any light.
 struct RelativeError {
-  double value = -1;         ///< -1 while unknown
-  double low = 0, high = 0;  ///< holds the true one with a probability of 95 %
+  double value = -1;         ///< -1 while unknown; 0 if no noise was seen, which may be because it is rare
+  double low = 0, high = 0;  ///< holds the true one with a probability of 95 % or more
 };
 
 struct RenderProgress {
