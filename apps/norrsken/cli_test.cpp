@@ -6,14 +6,12 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli_testing.h"
 #include "norrsken/image.h"
-#include "process_testing.h"
-#include "tests/temporary_folder.h"
 
 namespace norrsken::cli {
 namespace {
@@ -26,42 +24,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
-
-/// A rendering of milliseconds; and one that nobody would wait for.
-const std::vector<std::string> kShort = {"-Dshadow_rays=1", "--size", "40x30", "--spp", "4"};
-const std::vector<std::string> kEndless = {"-Dshadow_rays=1", "--size", "400x400", "--spp", "1000000"};
-
-std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-std::vector<json> parse_lines(const std::string& text) {
-  std::vector<json> objects;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) objects.push_back(json::parse(line));
-  return objects;
-}
-
-class Cli : public testing::Test {
- protected:
-  ProcessResult run(const std::vector<std::string>& arguments, ProcessOptions options = {}) const {
-    options.folder = folder_.string();
-    return run_program(arguments, options);
-  }
-  void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
-  std::string read(const std::string& name) const {
-    std::ifstream file(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_.path())) names.push_back(entry.path().filename().string());
-    return names;
-  }
-
-  const TemporaryFolder folder_;
-};
 
 TEST_F(Cli, HelpAndVersionGoToStdout) {
   for (const char* command : {"render", "info", "scenes", "compare", "bench", "figures"}) {
@@ -76,6 +38,10 @@ TEST_F(Cli, HelpAndVersionGoToStdout) {
   const ProcessResult version = run({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.out, AllOf(StartsWith("norrsken "), HasSubstr("scalar")));
+  // As other programs have it.
+  for (const char* word : {"version", "-V"}) EXPECT_EQ(run({word}).out, version.out);
+  EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+  EXPECT_EQ(run({"help", "render"}).out, run({"render", "--help"}).out);
 }
 
 TEST_F(Cli, WrongCommandLinesAre64AndLeaveNothing) {
@@ -104,13 +70,13 @@ TEST_F(Cli, WrongCommandLinesAre64AndLeaveNothing) {
   expect_usage({"render", "hexagon_room", "--integrator", "pth"}, "did you mean 'path'?");
   expect_usage({"render", "hexagon_room", "--integrator", ""}, "integrator");
   expect_usage({"render", "hexagon_room", "--sampler", ""}, "sampler");
-  expect_usage({"render", "hexagon_room", "--quiet", "--json"}, "excludes");
   expect_usage({"render", "hexagon_room", "--threads", "1025"}, "a whole number from 0 to 1024");
   expect_usage({"render", "hexagon_room", "-o", "a.bmp"}, "a.bmp");
   expect_usage({"--json", "info", "hexagon_room"}, "'--json' belongs after the command: norrsken info --json\n");
   expect_usage({"-Dspp=4", "render", "hexagon_room"}, "'-D' belongs after the command: norrsken render -D\n");
   expect_usage({"--json"}, "'--json' belongs after the command: norrsken COMMAND --json\n");
-  expect_usage({"-V"}, "unknown option '-V'\n");
+  expect_usage({"-v"}, "unknown option '-v'\n");
+  expect_usage({"help", "rendr"}, "unknown command 'rendr', did you mean 'render'?");
   EXPECT_THAT(files(), IsEmpty());
 }
 
@@ -148,15 +114,27 @@ TEST_F(Cli, PipesAreNotInputsAndNobodyWaitsForThem) {
   EXPECT_EQ(run({"compare", "pipe.exr", "pipe.exr"}).status, 66);
 }
 
+/// A limit on the size of files (SIGXFSZ) stands in for a disk that is full.
 TEST_F(Cli, OneLostOutputDoesNotCostTheOthers) {
-  const std::vector<std::string> lost = {"render",          "hexagon_room", "--size", "65536x1", "--spp", "1",
-                                         "-Dshadow_rays=1", "-o",           "a.jpg",  "-o",      "b.exr", "-o",
-                                         "./b.exr"};
-  const ProcessResult result = run(lost);  // JPEG takes 65535 pixels along a side
+  const std::vector<std::string> lost = {"render", "hexagon_room", "-Dshadow_rays=1", "--size", "60x40", "--spp",
+                                         "4",      "-o",           "a.exr",           "-o",     "b.jpg", "-o",
+                                         "./b.jpg"};
+  const ProcessResult result = run(lost, {.largest_file = 12000});
   EXPECT_EQ(result.status, 74);
-  EXPECT_THAT(result.err, AllOf(HasSubstr("a.jpg"), HasSubstr("wrote b.exr\n")));
-  EXPECT_THAT(files(), testing::ElementsAre("b.exr"));
-  EXPECT_EQ(parse_lines(run(lost + std::vector<std::string>{"--json"}).out).back()["files"], json::array({"b.exr"}));
+  EXPECT_THAT(result.err, AllOf(HasSubstr("cannot write 'a.exr': File too large\n"), HasSubstr("wrote b.jpg\n")));
+  EXPECT_THAT(files(), testing::ElementsAre("b.jpg"));
+  const ProcessResult told = run(lost + std::vector<std::string>{"--json"}, {.largest_file = 12000});
+  EXPECT_EQ(parse_lines(told.out).back()["files"], json::array({"b.jpg"}));
+}
+
+TEST_F(Cli, ImagesTooLargeForTheirFormatsAreRefusedBeforeRendering) {
+  const ProcessResult result =
+      run({"render", "hexagon_room", "--size", "65536x1", "--spp", "1000000000", "-o", "a.jpg", "-o", "b.exr"});
+  EXPECT_EQ(result.status, 73);
+  EXPECT_EQ(
+      result.err,
+      "norrsken: error: cannot write 'a.jpg': the image has 65536x1 pixels, the format takes 65500 along a side\n");
+  EXPECT_THAT(files(), IsEmpty());
 }
 
 TEST_F(Cli, RendersEveryOutputAndTheDefaultOne) {
@@ -195,6 +173,7 @@ TEST_F(Cli, ReplaysOneSample) {
   const ProcessResult text = run(one + std::vector<std::string>{"--seed", "3", "--pixel", "12,20", "--trace"});
   EXPECT_EQ(text.status, 0);
   EXPECT_THAT(text.out, AllOf(StartsWith("sample 0 of pixel 12, 20\n"), HasSubstr("\n  1  ray from (-0.99, "),
+                              ContainsRegex("meets shape [0-9]+ '[a-z_0-9]+', primitive"),
                               HasSubstr("light sample for diffuse"), HasSubstr("radiance (")));
   const ProcessResult object = run(one + std::vector<std::string>{"--seed", "3", "--pixel", "12,20", "--json"});
   const std::vector<float> radiance = parse_lines(object.out).at(0)["radiance"];
@@ -245,6 +224,31 @@ TEST_F(Cli, QuietPrintsNothing) {
   EXPECT_EQ(result.out + result.err, "");
 }
 
+TEST_F(Cli, QuietJsonIsStartAndDone) {
+  // The warning that layers are for EXR files alone is left out.
+  const std::vector<std::string> quiet = {"render", "hexagon_room", "--quiet", "--json", "--layers", "-o", "a.png"};
+  const ProcessResult result = run(quiet + kShort);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, IsEmpty());
+  const auto events = parse_lines(result.out);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0]["event"], "start");
+  EXPECT_EQ(events[1]["event"], "done");
+}
+
+/// json::parse refuses what is not UTF-8.
+TEST_F(Cli, JsonIsUtf8WhateverThePath) {
+  write("bad\xff.xml", R"(<scene version="3.0.0"><shape type="sphere"/><emitter type="constant"/></scene>)");
+  const std::vector<std::string> tiny = {"--size", "4x4", "--spp", "1"};
+  const auto events =
+      parse_lines(run(std::vector<std::string>{"render", "bad\xff.xml", "--json", "-o", "\xe9.exr"} + tiny).out);
+  EXPECT_EQ(events.front()["scene"], "bad\xef\xbf\xbd.xml");
+  EXPECT_EQ(events.back()["files"], json::array({"\xef\xbf\xbd.exr"}));
+  EXPECT_EQ(parse_lines(run({"info", "bad\xff.xml", "--json"}).out).at(0)["scene"], "bad\xef\xbf\xbd.xml");
+  EXPECT_EQ(parse_lines(run({"info", "\xe9.exr", "--json"}).out).at(0)["metadata"]["norrsken.scene"],
+            "bad\xef\xbf\xbd.xml");
+}
+
 TEST_F(Cli, JsonTellsStartProgressDone) {
   const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "--json"} + kShort);
   EXPECT_EQ(result.status, 0);
@@ -280,12 +284,14 @@ TEST_F(Cli, EndsAtAnErrorOrATime) {
 }
 
 TEST_F(Cli, InterruptSavesAndSays) {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU}) {
     const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "-o", "part.exr"} + kEndless,
                                      {.signals = {signal_number}});
     EXPECT_EQ(result.status, 77) << result.err;
     EXPECT_THAT(result.err, AllOf(HasSubstr("stopping; writing what there is (Ctrl-C again discards it)\n"),
-                                  HasSubstr("wrote part.exr"), HasSubstr("of 1000000 samples per pixel")));
+                                  HasSubstr("wrote part.exr"),
+                                  HasSubstr("of 1000000 samples per pixel; with --checkpoint FILE, the same command "
+                                            "would go on\n")));
     Image image;
     ASSERT_TRUE(read_image(folder_.file("part.exr"), image));
     double sum = 0;

@@ -42,6 +42,12 @@ std::string format_percent(double share) {
   return format_digits(percent) + " %";
 }
 
+std::string error_text(const RelativeError& error) {
+  if (error.value < 0) return {};
+  return fmt::format(", estimated error {} ({} to {})", format_percent(error.value), format_percent(error.low),
+                     format_percent(error.high));
+}
+
 std::string format_plural(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }

@@ -38,6 +38,8 @@ bool is_targa(std::string_view contents);
 std::string read_bmp(std::string_view contents, RasterImage& image);
 /// PNG: all of it, through libpng; what 16 bits are in 16 bits, all else in 8. Text is metadata.
 std::string read_png(std::string_view contents, RasterImage& image);
+/// Its size, channels and texts before the pixels, from the first bytes of a file.
+std::string read_png_header(std::string_view begin, ImageHeader& header);
 /// TGA: grey, colour and palettes, also run-length encoded. Truevision, "TGA File Format Specification", version 2.0, 1991;
 /// what it calls extension and developer areas is not looked at.
 std::string read_targa(std::string_view contents, RasterImage& image);
