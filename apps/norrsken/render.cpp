@@ -361,7 +361,7 @@ void add_render_command(CLI::App& app, Action& action) {
       "threads.\n\n"
       "Examples:\n"
       "  norrsken render hexagon_room -Dshadow_rays=1              writes hexagon_room.exr\n"
-      "  norrsken render hexagon_room -Dshadow_rays=1 -o room.png --spp 32 --exposure 1.5 --tone filmic\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1 -o room.png --spp 128 --exposure 1.5 --tone filmic\n"
       "  norrsken render hexagon_room -Dlight=point -Dshadow_rays=1 -o a.exr -o a.png --layers\n"
       "  norrsken render hexagon_room -Dshadow_rays=1 --size 1920x1080 --json\n"
       "  norrsken render hexagon_room -Dshadow_rays=1 --target-error 5% --adaptive\n"

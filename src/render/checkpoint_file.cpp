@@ -22,9 +22,9 @@ void CheckpointFile::resume(const SampleSchedule& schedule, Work& work, Film& fi
                       "another file, or this one when it has ended");
     return;
   }
-  if (lock_.state() == FileLock::State::unsupported)
-    diagnostics.warning(place, "the checkpoint cannot be locked: nothing keeps another process from writing it");
   const Resumption resumption = resume_render(path_, traits_, schedule, work, film, seconds, diagnostics);
+  if (resumption != Resumption::refused && lock_.state() == FileLock::State::unsupported)
+    diagnostics.warning(place, "the checkpoint cannot be locked: nothing keeps another process from writing it");
   // What is damaged must not take the place of what is not.
   older_ = resumption == Resumption::older ? OlderGeneration::replace : OlderGeneration::keep;
 }
