@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "console.h"
+#include "file_use.h"
 #include "norrsken/compare.h"
 #include "session.h"
 #include "text_format.h"
@@ -34,13 +34,9 @@ void read_image_or_tell(const std::string& path, MemoryBudget& memory, Image& im
 
 ExitStatus check_output(const Arguments& arguments) {
   if (arguments.output.empty()) return ExitStatus::done;
-  for (const std::string& input : {arguments.a, arguments.b}) {
-    std::error_code error;  // that one does not exist: then they differ
-    if (!std::filesystem::equivalent(arguments.output, input, error)) continue;
-    print_error(
-        fmt::format("the difference cannot be written to '{}': it is one of the images to compare", arguments.output));
-    return ExitStatus::usage;
-  }
+  const auto images = uses_of({arguments.a, arguments.b}, "one of the images to compare");
+  const ExitStatus clash = check_written_files({arguments.output}, images);
+  if (clash != ExitStatus::done) return clash;
   return check_outputs({arguments.output});
 }
 

@@ -54,15 +54,6 @@ std::string progress_line(const std::string& label, const RenderProgress& progre
   return fmt::format("{}", fmt::join(parts, "")).substr(0, static_cast<std::size_t>(std::max(columns, 0)));
 }
 
-std::string error_text(const RelativeError& error, double samples_per_pixel) {
-  if (error.value > 0) {
-    return fmt::format("estimated error {} ({} to {})", format_percent(error.value), format_percent(error.low),
-                       format_percent(error.high));
-  }
-  if (error.value == 0) return "no noise seen";
-  return samples_per_pixel < 2 ? "error not known before every pixel has two samples" : "error unknown: no light seen";
-}
-
 void add_error(nlohmann::ordered_json& object, const RelativeError& error) {
   object["relative_error"] = nullptr;
   object["relative_error_interval"] = nullptr;

@@ -10,9 +10,6 @@
 
 namespace norrsken::cli {
 
-/// "estimated error 9.45 % (9.1 % to 9.8 %)", or why there is none to tell of an image with so many samples.
-std::string error_text(const RelativeError& error, double samples_per_pixel);
-
 /// `relative_error` and `relative_error_interval`, null while unknown; the interval also as long as no noise was seen.
 void add_error(nlohmann::ordered_json& object, const RelativeError& error);
 
