@@ -51,7 +51,8 @@ TEST_F(Cli, QuietJsonIsStartAndDone) {
 
 /// json::parse refuses what is not UTF-8.
 TEST_F(Cli, JsonIsUtf8WhateverThePath) {
-  write("bad\xff.xml", R"(<scene version="3.0.0"><sensor type="perspective"/><shape type="sphere"/><emitter type="constant"/>
+  write("bad\xff.xml",
+        R"(<scene version="3.0.0"><sensor type="perspective"/><shape type="sphere"/><emitter type="constant"/>
 </scene>)");
   const std::vector<std::string> tiny = {"--size", "4x4", "--spp", "1"};
   const auto events =

@@ -65,7 +65,8 @@ ExitStatus merge(const Arguments& arguments) {
                          is_whole ? format_plural(static_cast<std::uint64_t>(merged.samples_per_pixel), "sample")
                                   : format_digits(merged.samples_per_pixel) + " samples",
                          is_whole ? fmt::format(" ({})", list_of(merged.samples)) : "",
-                         format_plural(arguments.files.size(), "file"), error_text(merged.error, merged.samples_per_pixel)));
+                         format_plural(arguments.files.size(), "file"),
+                         error_text(merged.error, merged.samples_per_pixel)));
   print_note(fmt::format("wrote {}", fmt::join(outputs, ", ")));
   return ExitStatus::done;
 }
