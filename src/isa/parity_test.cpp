@@ -43,6 +43,7 @@ struct Made {
       for (std::uint32_t k = 0; k < 6; ++k) q.field(k)[i] = sources[k][i];
       for (std::uint32_t k = kRayThroughputRed; k <= kRayThroughputBlue; ++k) q.field(k)[i] = unit(random);
       q.field(kRayPdf)[i] = i % 3 == 0 ? 0.0f : unit(random);
+      q.field(kRayEta2)[i] = 1 + unit(random);
       q.field(kRaySlot)[i] = float_of((i * 37) % kSlots);
     }
     q.count = rays;
@@ -99,6 +100,7 @@ class Parity : public testing::TestWithParam<AccelKind> {
     options.parameters = {{"shadow_rays", "2"}};
     viewed_ = view_scene("hexagon_room", GetParam(), options);
     ASSERT_NE(viewed_, nullptr);
+    viewed_->view.refracts = true;  // or rays would not have all their fields
   }
   const SceneView& scene() const { return viewed_->view; }
 

@@ -29,6 +29,9 @@ norrsken_mutant(no_distance_in_the_measure math/warp.h
 norrsken_mutant(no_roulette_weight wave/shade_surface.h
   "throughput * (Float(1.0f) / survive)" "throughput"
   IN rendering BY "RussianRoulette*")
+norrsken_mutant(roulette_without_eta2 wave/shade_surface.h
+  "max_component(throughput) * eta2" "max_component(throughput)"
+  IN rendering BY "CoarseBall.Roulette*" SAYING "Expected: .variance. < .0.5.")
 norrsken_mutant(no_bsdf_sample_count wave/shade_surface.h
   "throughput * Float(1.0f / static_cast<float>(n))" "throughput"
   IN rendering BY "Direct.SamplesDivide*" SAYING "bsdf_samples: [0-9.e+-]* where")
@@ -141,6 +144,9 @@ norrsken_mutant(one_sobol_dimension_twice sampler/sobol.h
 norrsken_mutant(rays_begin_behind_the_surface wave/surface.h
   "copysign(offset, side)" "-copysign(offset, side)"
   IN rendering BY "*UniformRoom*uniform_sphere")
+norrsken_mutant(sides_told_by_the_geometric_normal wave/surface.h
+  "side_told_by(shading, hit.ray.direction)" "side_told_by(s.normal, hit.ray.direction)"
+  IN rendering BY "CoarseBall.OfGlass*" SAYING "Expected: .mean_of.picture.. >= .0.999.")
 norrsken_mutant(rays_begin_on_the_surface wave/surface.h
   "scale * Float(kOffsetUlps)" "Float(0.0f)"
   IN rendering BY "*UniformRoom*")
@@ -173,6 +179,9 @@ norrsken_mutant(infinite_cosine_ratios wave/shade_particles.h
 norrsken_mutant(normal_map_without_a_normal wave/perturbed_frame.h
   "select(lanes, perturbed.frame.n, surface.frame.n)" "surface.frame.n"
   IN rendering BY "LookedThrough.NormalMaps*" SAYING "The difference between got")
+norrsken_mutant(twosided_that_mirrors_no_map wave/perturbed_frame.h
+  "select(mirrored, Float(-1.0f), Float(1.0f))" "Float(1.0f)"
+  IN rendering BY "LookedThrough.WhatStandsAround*" SAYING "The difference between got")
 norrsken_mutant(normal_map_without_shadowing wave/perturbed_frame.h
   "zero_unless(cos_theta * cos_inside > Float(0.0f), shadowing)" "Float(1.0f)"
   IN rendering BY "LookedThrough.NormalMaps*" SAYING "The difference between got")
