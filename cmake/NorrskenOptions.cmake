@@ -53,11 +53,12 @@ if(NORRSKEN_BUILD_TESTS)
     <gmock/gmock.h> <gtest/gtest.h> <algorithm> <cmath> <filesystem> <map> <string> <vector>)
 endif()
 
-# norrsken_test(NAME [COMPUTES] SOURCES ... LINK ... [LABELS ...]): a GoogleTest program, one ctest case per test. COMPUTES:
+# norrsken_test(NAME [COMPUTES] SOURCES ... LINK ... [LABELS ...] [WITHOUT FILTER]): a GoogleTest program, one ctest case per test. COMPUTES:
 # the time is spent in its own code (kernels of one lane, an oracle), which is optimised as the product is. The label `slow`
-# says that its tests take longer than a few seconds; those of NORRSKEN_THOROUGH_LABELS say what else they are.
+# says that its tests take longer than a few seconds; those of NORRSKEN_THOROUGH_LABELS say what else they are. WITHOUT: tests
+# that are no ctest case by this, but by an `add_test` with labels of its own.
 function(norrsken_test name)
-  cmake_parse_arguments(ARG "COMPUTES" "" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "COMPUTES" "WITHOUT" "SOURCES;LINK;LABELS" ${ARGN})
   if(NOT NORRSKEN_BUILD_TESTS)
     return()
   endif()
@@ -73,6 +74,10 @@ function(norrsken_test name)
     target_compile_options(${name} PRIVATE ${norrsken_test_options})
     target_precompile_headers(${name} REUSE_FROM norrsken_precompiled_tests)
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+  set(filter "")
+  if(ARG_WITHOUT)
+    set(filter TEST_FILTER "-${ARG_WITHOUT}")
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 ${filter}
     PROPERTIES TIMEOUT 900 LABELS "${ARG_LABELS}")
 endfunction()

@@ -16,8 +16,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   if (random() % 16 == 0) {
     file.sections.erase(file.sections.begin() + static_cast<std::ptrdiff_t>(random() % file.sections.size()));
   } else {
-    // The last sections are the sums, of which any values will do: the first three are looked at more closely.
-    const std::size_t among = random() % 4 == 0 ? file.sections.size() : std::min<std::size_t>(file.sections.size(), 3);
+    // The last sections are the sums, of which any values will do: the first four are looked at more closely.
+    const std::size_t among = random() % 4 == 0 ? file.sections.size() : std::min<std::size_t>(file.sections.size(), 4);
     std::string& content = file.sections[random() % among].content;
     const std::size_t used = content.size();
     content.resize(std::min(used + 64, std::max(max_size, used)));

@@ -2,6 +2,7 @@
 // linked, not loaded, so that its coverage is seen; the libraries behind it are not instrumented.
 #include <OpenImageIO/imageio.h>
 
+#include "formats/exr_header.h"
 #include "formats/image_oiio.h"
 #include "formats/raster_image.h"
 #include "fuzz/fuzz.h"
@@ -10,6 +11,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace norrsken;
   constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
   const std::string contents(fuzz::text_of(data, size));
+  ImageHeader header;
+  const auto exr = read_exr_header(contents);
+  fuzz::require(!exr || (exr->width > 0 && exr->height > 0), "a header that is read has a size");
+  if (is_png(contents) && read_png_header(contents, header).empty()) {
+    fuzz::require(header.width > 0 && header.height > 0 && !header.channels.empty(), "a PNG has a size and channels");
+  }
   const bool is_own = is_raster_image(contents);
   std::string error;
   Image image;

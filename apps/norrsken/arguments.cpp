@@ -207,6 +207,10 @@ CLI::Validator duration() {
                    [](const std::string& text) { return parse_duration(text).has_value(); });
 }
 
+CLI::Validator file_name() {
+  return accepting("the name of a file", [](const std::string& text) { return !text.empty(); });
+}
+
 CLI::Validator share() {
   return accepting("a share greater than 0 and less than 1, as in 1% or 0.01",
                    [](const std::string& text) { return parse_share(text).has_value(); });

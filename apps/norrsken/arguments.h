@@ -47,6 +47,7 @@ CLI::Validator one_of(std::vector<std::string> words);
 CLI::Validator image_size();
 CLI::Validator definition();
 CLI::Validator duration();
+CLI::Validator file_name();
 CLI::Validator sample_range();
 CLI::Validator share();
 CLI::Validator memory_size();

@@ -93,13 +93,14 @@ struct SceneLine {
 
 TEST(SceneArguments, DefinitionsJoinedAndApartInOrder) {
   SceneLine line;
-  line.parse("render -Da=1 room.xml -D b=2 -Da=3 --size 20x10 --sampler independent --spp 8");
+  line.parse("render -Da=1 room.xml -D b=2 -Da=3 --size 20x10 --sampler independent --sensor left --spp 8");
   const LoadOptions options = line.scene.load_options();
   EXPECT_EQ(line.scene.scene, "room.xml");
   EXPECT_THAT(options.parameters, testing::ElementsAre(Pair("a", "1"), Pair("b", "2"), Pair("a", "3")));
   EXPECT_EQ(options.width, 20);
   EXPECT_EQ(options.height, 10);
   EXPECT_EQ(options.sampler, "independent");
+  EXPECT_EQ(options.sensor, "left");
   EXPECT_EQ(options.samples_per_pixel, 8);
   EXPECT_FALSE(options.integrator);
 }

@@ -6,14 +6,12 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli_testing.h"
 #include "norrsken/image.h"
-#include "process_testing.h"
-#include "tests/temporary_folder.h"
 
 namespace norrsken::cli {
 namespace {
@@ -26,42 +24,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
-
-/// A rendering of milliseconds; and one that nobody would wait for.
-const std::vector<std::string> kShort = {"-Dshadow_rays=1", "--size", "40x30", "--spp", "4"};
-const std::vector<std::string> kEndless = {"-Dshadow_rays=1", "--size", "400x400", "--spp", "1000000"};
-
-std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-std::vector<json> parse_lines(const std::string& text) {
-  std::vector<json> objects;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) objects.push_back(json::parse(line));
-  return objects;
-}
-
-class Cli : public testing::Test {
- protected:
-  ProcessResult run(const std::vector<std::string>& arguments, ProcessOptions options = {}) const {
-    options.folder = folder_.string();
-    return run_program(arguments, options);
-  }
-  void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
-  std::string read(const std::string& name) const {
-    std::ifstream file(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_.path())) names.push_back(entry.path().filename().string());
-    return names;
-  }
-
-  const TemporaryFolder folder_;
-};
 
 TEST_F(Cli, HelpAndVersionGoToStdout) {
   for (const char* command : {"render", "info", "scenes", "compare", "bench", "figures"}) {
@@ -76,6 +38,35 @@ TEST_F(Cli, HelpAndVersionGoToStdout) {
   const ProcessResult version = run({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.out, AllOf(StartsWith("norrsken "), HasSubstr("scalar")));
+  // As other programs have it.
+  for (const char* word : {"version", "-V"}) EXPECT_EQ(run({word}).out, version.out);
+  EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+  EXPECT_EQ(run({"help", "render"}).out, run({"render", "--help"}).out);
+}
+
+/// 41 million samples with one shadow ray per hit: three seconds on two cores.
+TEST_F(Cli, TheFirstExamplesOfTheHelpAreQuick) {
+  for (const std::vector<std::string>& help : {std::vector<std::string>{"--help"}, {"render", "--help"}}) {
+    const std::string text = run(help).out;
+    const std::size_t begin =
+        text.find("  norrsken render ", text.find("Examples:")) + std::string("  norrsken ").size();
+    std::istringstream words(text.substr(begin, text.find('\n', begin) - begin));
+    std::vector<std::string> example = {"info", "--json"};
+    std::string word;
+    words >> word;  // render
+    while (words >> word && word != "writes") {
+      if (word == "-o")
+        words >> word;
+      else
+        example.push_back(word);
+    }
+    const ProcessResult told = run(example);
+    ASSERT_EQ(told.status, 0) << told.err;
+    const json info = parse_lines(told.out).at(0);
+    const double samples = info["width"].get<double>() * info["height"].get<double>() *
+                           info["samples_per_pixel"].get<double>() * info["emitter_samples"].get<double>();
+    EXPECT_LE(samples, 800.0 * 800 * 64);
+  }
 }
 
 TEST_F(Cli, WrongCommandLinesAre64AndLeaveNothing) {
@@ -104,13 +95,13 @@ TEST_F(Cli, WrongCommandLinesAre64AndLeaveNothing) {
   expect_usage({"render", "hexagon_room", "--integrator", "pth"}, "did you mean 'path'?");
   expect_usage({"render", "hexagon_room", "--integrator", ""}, "integrator");
   expect_usage({"render", "hexagon_room", "--sampler", ""}, "sampler");
-  expect_usage({"render", "hexagon_room", "--quiet", "--json"}, "excludes");
   expect_usage({"render", "hexagon_room", "--threads", "1025"}, "a whole number from 0 to 1024");
   expect_usage({"render", "hexagon_room", "-o", "a.bmp"}, "a.bmp");
   expect_usage({"--json", "info", "hexagon_room"}, "'--json' belongs after the command: norrsken info --json\n");
   expect_usage({"-Dspp=4", "render", "hexagon_room"}, "'-D' belongs after the command: norrsken render -D\n");
   expect_usage({"--json"}, "'--json' belongs after the command: norrsken COMMAND --json\n");
-  expect_usage({"-V"}, "unknown option '-V'\n");
+  expect_usage({"-v"}, "unknown option '-v'\n");
+  expect_usage({"help", "rendr"}, "unknown command 'rendr', did you mean 'render'?");
   EXPECT_THAT(files(), IsEmpty());
 }
 
@@ -146,17 +137,6 @@ TEST_F(Cli, PipesAreNotInputsAndNobodyWaitsForThem) {
   ASSERT_EQ(mkfifo((folder_ / "pipe.exr").c_str(), 0600), 0);
   EXPECT_EQ(run({"info", "pipe.xml"}).status, 66);
   EXPECT_EQ(run({"compare", "pipe.exr", "pipe.exr"}).status, 66);
-}
-
-TEST_F(Cli, OneLostOutputDoesNotCostTheOthers) {
-  const std::vector<std::string> lost = {"render",          "hexagon_room", "--size", "65536x1", "--spp", "1",
-                                         "-Dshadow_rays=1", "-o",           "a.jpg",  "-o",      "b.exr", "-o",
-                                         "./b.exr"};
-  const ProcessResult result = run(lost);  // JPEG takes 65535 pixels along a side
-  EXPECT_EQ(result.status, 74);
-  EXPECT_THAT(result.err, AllOf(HasSubstr("a.jpg"), HasSubstr("wrote b.exr\n")));
-  EXPECT_THAT(files(), testing::ElementsAre("b.exr"));
-  EXPECT_EQ(parse_lines(run(lost + std::vector<std::string>{"--json"}).out).back()["files"], json::array({"b.exr"}));
 }
 
 TEST_F(Cli, RendersEveryOutputAndTheDefaultOne) {
@@ -195,6 +175,7 @@ TEST_F(Cli, ReplaysOneSample) {
   const ProcessResult text = run(one + std::vector<std::string>{"--seed", "3", "--pixel", "12,20", "--trace"});
   EXPECT_EQ(text.status, 0);
   EXPECT_THAT(text.out, AllOf(StartsWith("sample 0 of pixel 12, 20\n"), HasSubstr("\n  1  ray from (-0.99, "),
+                              ContainsRegex("meets shape [0-9]+ '[a-z_0-9]+', primitive"),
                               HasSubstr("light sample for diffuse"), HasSubstr("radiance (")));
   const ProcessResult object = run(one + std::vector<std::string>{"--seed", "3", "--pixel", "12,20", "--json"});
   const std::vector<float> radiance = parse_lines(object.out).at(0)["radiance"];
@@ -239,28 +220,6 @@ TEST_F(Cli, SamplesThatAreInfiniteAreToldWithTheCommandThatReplaysThem) {
   }
 }
 
-TEST_F(Cli, QuietPrintsNothing) {
-  const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "--quiet"} + kShort);
-  EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.out + result.err, "");
-}
-
-TEST_F(Cli, JsonTellsStartProgressDone) {
-  const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "--json"} + kShort);
-  EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.err, IsEmpty());
-  const auto events = parse_lines(result.out);
-  ASSERT_GE(events.size(), 3u);
-  EXPECT_EQ(events.front()["event"], "start");
-  EXPECT_EQ(events.front()["width"], 40);
-  EXPECT_EQ(events[1]["event"], "progress");
-  EXPECT_EQ(events.back()["event"], "done");
-  EXPECT_EQ(events.back()["samples"], 40 * 30 * 4);
-  EXPECT_EQ(events.back()["interrupted"], false);
-  EXPECT_EQ(events.back()["files"], json::array({"hexagon_room.exr"}));
-  EXPECT_GT(events.back()["closest_rays"], 40 * 30 * 4 - 1);
-}
-
 TEST_F(Cli, EndsAtAnErrorOrATime) {
   const std::vector<std::string> room = {"render", "hexagon_room", "-Dshadow_rays=1", "--size", "40x30"};
   const auto events = parse_lines(run(room + std::vector<std::string>{"--target-error", "50%", "--json"}).out);
@@ -280,12 +239,14 @@ TEST_F(Cli, EndsAtAnErrorOrATime) {
 }
 
 TEST_F(Cli, InterruptSavesAndSays) {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU}) {
     const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "-o", "part.exr"} + kEndless,
                                      {.signals = {signal_number}});
     EXPECT_EQ(result.status, 77) << result.err;
     EXPECT_THAT(result.err, AllOf(HasSubstr("stopping; writing what there is (Ctrl-C again discards it)\n"),
-                                  HasSubstr("wrote part.exr"), HasSubstr("of 1000000 samples per pixel")));
+                                  HasSubstr("wrote part.exr"),
+                                  HasSubstr("of 1000000 samples per pixel; with --checkpoint FILE, the same command "
+                                            "would go on\n")));
     Image image;
     ASSERT_TRUE(read_image(folder_.file("part.exr"), image));
     double sum = 0;
@@ -324,16 +285,6 @@ TEST_F(Cli, ColorOnTerminalsOnlyAndNeverWithNoColor) {
   EXPECT_THAT(run(wrong, {.environment = {"NO_COLOR=1"}, .terminal = true}).err, Not(HasSubstr("\x1b[")));
   EXPECT_THAT(run(wrong, {.environment = {"TERM=dumb"}, .terminal = true}).err, Not(HasSubstr("\x1b[")));
   EXPECT_THAT(run(wrong).err, Not(HasSubstr("\x1b[")));
-}
-
-TEST_F(Cli, LostOutputIs74) {
-  const ProcessResult result = run({"scenes"}, {.stdout_file = "/dev/full"});
-  EXPECT_EQ(result.status, 74);
-  EXPECT_THAT(result.err, HasSubstr("standard output"));
-  // The image survives a reader of the progress that does not.
-  const std::vector<std::string> render = {"render", "hexagon_room", "--json"};
-  EXPECT_EQ(run(render + kShort, {.stdout_file = "/dev/full"}).status, 74);
-  EXPECT_THAT(files(), testing::ElementsAre("hexagon_room.exr"));
 }
 
 TEST_F(Cli, SamplesPerPixelReplaceTheScenes) {
@@ -387,20 +338,6 @@ TEST_F(Cli, CompareTellsDistancesAndWritesTheDifference) {
   const ProcessResult sizes = run({"compare", "a.exr", "s.exr"});
   EXPECT_EQ(sizes.status, 65);
   EXPECT_THAT(sizes.err, HasSubstr("the images differ in size: a.exr is 40x30, s.exr 8x6"));
-}
-
-TEST_F(Cli, BenchPrintsOneLineOfJson) {
-  const ProcessResult result =
-      run(std::vector<std::string>{"bench", "hexagon_room", "--repeat", "2", "--isa", "scalar"} + kShort);
-  EXPECT_EQ(result.status, 0) << result.err;
-  const auto lines = parse_lines(result.out);
-  ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0]["isa"], "scalar");
-  EXPECT_EQ(lines[0]["lanes"], 1);
-  EXPECT_EQ(lines[0]["samples"], 40 * 30 * 4);
-  EXPECT_GT(lines[0]["mrays_per_second"]["median"], 0.0);
-  EXPECT_LE(lines[0]["msamples_per_second"]["min"], lines[0]["msamples_per_second"]["max"]);
-  EXPECT_THAT(files(), IsEmpty());
 }
 
 TEST_F(Cli, FiguresNeedsAFolderItCanMakeAndSavesNoPageWhenInterrupted) {

@@ -2,13 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "console.h"
+#include "file_use.h"
 #include "norrsken/compare.h"
 #include "session.h"
+#include "text_format.h"
 
 namespace norrsken::cli {
 namespace {
@@ -33,24 +34,31 @@ void read_image_or_tell(const std::string& path, MemoryBudget& memory, Image& im
 
 ExitStatus check_output(const Arguments& arguments) {
   if (arguments.output.empty()) return ExitStatus::done;
-  for (const std::string& input : {arguments.a, arguments.b}) {
-    std::error_code error;  // that one does not exist: then they differ
-    if (!std::filesystem::equivalent(arguments.output, input, error)) continue;
-    print_error(
-        fmt::format("the difference cannot be written to '{}': it is one of the images to compare", arguments.output));
-    return ExitStatus::usage;
-  }
+  const auto images = uses_of({arguments.a, arguments.b}, "one of the images to compare");
+  const ExitStatus clash = check_written_files({arguments.output}, images);
+  if (clash != ExitStatus::done) return clash;
   return check_outputs({arguments.output});
 }
 
 void print_as_json(const Arguments& arguments, const Comparison& comparison) {
-  nlohmann::ordered_json object = {{"image", arguments.a},      {"reference", arguments.b},
-                                   {"mse", comparison.mse},     {"rel_mse", comparison.rel_mse},
-                                   {"psnr", comparison.psnr},   {"flip", comparison.flip},
-                                   {"mean", comparison.mean_a}, {"reference_mean", comparison.mean_b},
+  nlohmann::ordered_json object = {{"image", arguments.a},
+                                   {"reference", arguments.b},
+                                   {"mse", comparison.mse},
+                                   {"rel_mse", comparison.rel_mse},
+                                   {"psnr", comparison.psnr},
+                                   {"flip", comparison.flip},
+                                   {"mean", comparison.mean_a},
+                                   {"reference_mean", comparison.mean_b},
+                                   {"nan_pixels", comparison.nan_a},
+                                   {"reference_nan_pixels", comparison.nan_b},
                                    {"z_test", nullptr}};
-  if (const auto& z = comparison.z_test)
-    object["z_test"] = {{"passed_share", z->passed_share}, {"rms_z", z->rms_z}, {"mean_z", z->mean_z}};
+  if (const auto& z = comparison.z_test) {
+    object["z_test"] = {
+        {"passed_share", z->passed_share}, {"rms_z", z->rms_z}, {"mean_z", z->mean_z}, {"noise_estimated_of", nullptr}};
+    if (z->estimated != Comparison::ZTest::Estimated::neither) {
+      object["z_test"]["noise_estimated_of"] = z->estimated == Comparison::ZTest::Estimated::a ? "image" : "reference";
+    }
+  }
   if (!arguments.output.empty()) object["file"] = arguments.output;
   print_json(object);
 }
@@ -61,12 +69,24 @@ void print_as_text(const Comparison& comparison) {
   print_line(fmt::format("PSNR    {:.2f} dB", comparison.psnr));
   print_line(fmt::format("FLIP    {:.4f}", comparison.flip));
   print_line(fmt::format("mean    {:.6g}, reference {:.6g}", comparison.mean_a, comparison.mean_b));
-  if (const auto& z = comparison.z_test)
-    print_line(
-        fmt::format("z-test  {:.4g} % of the pixel channels pass, rms z {:.3f}, z of the means {:.2f} {:.2f} {:.2f}",
-                    100 * z->passed_share, z->rms_z, z->mean_z[0], z->mean_z[1], z->mean_z[2]));
-  else
+  const auto tell_nan = [](std::uint64_t pixels, const char* which) {
+    if (pixels > 0) print_line(fmt::format("NaN     in {} of the {}", format_plural(pixels, "pixel"), which));
+  };
+  tell_nan(comparison.nan_a, "image");
+  tell_nan(comparison.nan_b, "reference");
+  const auto& z = comparison.z_test;
+  if (!z) {
     print_line("z-test  none: neither image has variance layers (norrsken render --layers)");
+    return;
+  }
+  print_line(
+      fmt::format("z-test  {:.4g} % of the pixel channels pass, rms z {:.3f}, z of the means {:.2f} {:.2f} {:.2f}",
+                  100 * z->passed_share, z->rms_z, z->mean_z[0], z->mean_z[1], z->mean_z[2]));
+  if (z->estimated == Comparison::ZTest::Estimated::neither) return;
+  print_line(
+      fmt::format("        The {} has no variance layers (norrsken render --layers): its noise is estimated from",
+                  z->estimated == Comparison::ZTest::Estimated::a ? "image" : "reference"));
+  print_line("        differences between neighbouring pixels.");
 }
 
 ExitStatus compare_images(const Arguments& arguments) {
@@ -108,7 +128,8 @@ void add_compare_command(CLI::App& app, Action& action) {
   command->add_flag("--json", arguments->json, "Print one JSON object");
   command->footer(
       "MSE and relMSE are of linear radiance, PSNR and FLIP of the tone-mapped images. The z-test asks, for every\n"
-      "pixel, whether both images can be estimates of the same picture; it needs variance layers in one of them.\n\n"
+      "pixel, whether both images can be estimates of the same picture; it needs variance layers in both of them. If\n"
+      "one has none, its noise is estimated from differences between neighbouring pixels.\n\n"
       "Examples:\n"
       "  norrsken compare room.exr reference.exr\n"
       "  norrsken compare room.exr reference.exr -o difference.png --exposure 2");

@@ -14,6 +14,7 @@
 #include "console.h"
 #include "equal_error.h"
 #include "figures_page.h"
+#include "file_use.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "session.h"
@@ -24,10 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSceneName = "hexagon_room";
+/// By its path: a file of the name in the current folder would hide the scene.
+constexpr const char* kScenePath = "builtin:hexagon_room.xml";
 
 struct Arguments {
-  std::string folder, sampler = "independent", command;
+  std::string folder, sampler = kReportSampler, command;
   MachineArguments machine;
   MemoryArguments memory;
   bool quick = false, quiet = false;
@@ -63,6 +65,24 @@ constexpr std::array<Reference, 3> kReferences = {{
     {"Reference, point light", "reference_point", "point", "path", 2048, 1024},
     {"Reference, direct light", "reference_direct", "point", "whitted", 1024, 256},
 }};
+
+std::string stem_of(const Figure& figure) { return fmt::format("figure_{:02}", figure.number); }
+/// Of the image with one shadow ray per hit that is as right as the last figure.
+std::string equal_stem() { return stem_of(kFigures.back()) + "_one_shadow_ray"; }
+
+constexpr const char* kExtensions[] = {".exr", ".png"};
+
+/// All images that are written to the folder.
+std::vector<std::string> image_paths(const fs::path& folder) {
+  std::vector<std::string> stems = {equal_stem()};
+  for (const Reference& reference : kReferences) stems.emplace_back(reference.stem);
+  for (const Figure& figure : kFigures) stems.push_back(stem_of(figure));
+  std::vector<std::string> paths;
+  for (const std::string& stem : stems) {
+    for (const char* extension : kExtensions) paths.push_back((folder / (stem + extension)).string());
+  }
+  return paths;
+}
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -102,7 +122,7 @@ class Workshop {
       : arguments_(arguments), meter_(arguments.quiet ? Verbosity::quiet : Verbosity::text) {
     report_.command = arguments.command;
     report_.machine = processor_name();
-    report_.width = report_.height = arguments.quick ? 200 : 800;
+    report_.width = report_.height = arguments.quick ? 200 : kReportSide;
   }
 
   FiguresReport run() {
@@ -110,7 +130,7 @@ class Workshop {
     for (const Figure& figure : kFigures) {
       FigureResult result = {.name = fmt::format("Figure {}", figure.number),
                              .caption = figure.caption,
-                             .stem = fmt::format("figure_{:02}", figure.number),
+                             .stem = stem_of(figure),
                              .light = figure.light,
                              .integrator = figure.integrator,
                              .sampler = arguments_.sampler,
@@ -184,7 +204,7 @@ class Workshop {
     std::sort(series.begin(), series.end(), [](const FigureResult& a, const FigureResult& b) { return a.spp < b.spp; });
     const auto equal =
         std::find_if(series.begin(), series.end(), [&](const FigureResult& result) { return result.spp == equal_spp; });
-    equal->stem = last.stem + "_one_shadow_ray";
+    equal->stem = equal_stem();
     write(equal->stem, images.at(equal_spp));
     report_.equal = static_cast<std::size_t>(equal - series.begin());
   }
@@ -199,7 +219,7 @@ class Workshop {
                                       .width = report_.width,
                                       .height = report_.height,
                                       .memory = arguments_.memory.budget()};
-    const Scene scene = load_scene(kSceneName, load_options);
+    const Scene scene = load_scene(kScenePath, load_options);
     RenderOptions options;
     arguments_.machine.apply_to(options);
     options.seed = seed;
@@ -220,7 +240,7 @@ class Workshop {
 
   void write(const std::string& stem, const Image& image) const {
     const SavingGuard guard;
-    for (const char* extension : {".exr", ".png"})
+    for (const char* extension : kExtensions)
       write_image_or_fail((fs::path(arguments_.folder) / (stem + extension)).string(), image, ToneMapping{});
   }
 
@@ -258,9 +278,10 @@ ExitStatus figures(const Arguments& arguments) {
   if (error)
     throw Failure(ExitStatus::cannot_create,
                   fmt::format("cannot create the folder '{}': {}", arguments.folder, error.message()));
-  if (const ExitStatus status = check_outputs({(fs::path(arguments.folder) / "figure_05.png").string()});
-      status != ExitStatus::done)
-    return status;
+  const std::vector<std::string> images = image_paths(arguments.folder);
+  for (const ExitStatus status : {check_outputs(images), check_written_files(images, {})}) {
+    if (status != ExitStatus::done) return status;
+  }
 
   const FiguresReport report = Workshop(arguments).run();
   const fs::path page = fs::path(arguments.folder) / "index.html";
@@ -295,7 +316,7 @@ void add_figures_command(CLI::App& app, Action& action) {
   command->group("Commands");
   command->callback([&action, arguments] {
     arguments->command = fmt::format("norrsken figures -o {}{}", arguments->folder, arguments->quick ? " --quick" : "");
-    if (arguments->sampler != "independent") arguments->command += " --sampler " + arguments->sampler;
+    if (arguments->sampler != kReportSampler) arguments->command += " --sampler " + arguments->sampler;
     if (arguments->machine.threads > 0) arguments->command += fmt::format(" --threads {}", arguments->machine.threads);
     if (arguments->machine.isa != "auto") arguments->command += " --isa " + arguments->machine.isa;
     if (arguments->machine.accelerator != "auto") arguments->command += " --accel " + arguments->machine.accelerator;

@@ -131,6 +131,17 @@ std::string plot(const FiguresReport& report, bool against_time) {
                            .series = {literal, one_ray}});
 }
 
+/// Whose settings the figures have.
+std::string settings_text(const FiguresReport& report) {
+  std::vector<std::string> others;
+  if (report.width != kReportSide || report.height != kReportSide)
+    others.push_back(fmt::format("the size, which is {0} × {0} there", kReportSide));
+  if (report.figures.front().sampler != kReportSampler)
+    others.push_back(fmt::format("the sampling, which is {} there", kReportSampler));
+  if (others.empty()) return "the report's own settings";
+  return fmt::format("the report's settings but for {}", fmt::join(others, " and "));
+}
+
 std::string equal_error_section(const FiguresReport& report) {
   if (!report.equal) return "";
   const FigureResult &last = report.figures.back(), &equal = report.one_ray[*report.equal];
@@ -173,10 +184,11 @@ std::string figures_page(const FiguresReport& report) {
   html += "</style>\n</head>\n<body>\n<h1>The hexagon room: figures 5 to 13</h1>\n";
   const RenderStatistics& machine = report.figures.front().statistics;
   html += fmt::format(
-      "<p>The figures of the report <em>A Monte Carlo ray tracer</em> (TNCG15, Linköping University) at the report's "
-      "own settings: {} × {} pixels, 3 bounces, {} sampling, as many shadow rays at every hit as samples per pixel "
-      "unless said otherwise. The report's renderer took from a minute for figure 9 to 7 hours for figure 13.</p>\n",
-      report.width, report.height, escape_html(report.figures.front().sampler));
+      "<p>The figures of the report <em>A Monte Carlo ray tracer</em> (TNCG15, Linköping University) at {}: {} × {} "
+      "pixels, 3 bounces, {} sampling, as many shadow rays at every hit as samples per pixel unless said otherwise. "
+      "The "
+      "report's renderer took from a minute for figure 9 to 7 hours for figure 13.</p>\n",
+      settings_text(report), report.width, report.height, escape_html(report.figures.front().sampler));
   html += fmt::format("<p class=\"soft\">Measured on {}{}, {} instructions with {}, {} intersector.</p>\n",
                       report.machine.empty() ? "" : escape_html(report.machine) + ", ",
                       format_plural(machine.threads, "thread"), escape_html(machine.isa),
@@ -200,7 +212,9 @@ std::string figures_page(const FiguresReport& report) {
       "and channels of linear radiance, b being the reference. Relative RMSE is the root mean square of a − b over "
       "the mean of b; a few very bright pixels, the edge of a light, weigh most in it. FLIP is the mean LDR-FLIP of "
       "the "
-      "tone-mapped images. Rays are all rays traced, to closest hits and to lights.</p>\n"
+      "tone-mapped images. Rays are all rays traced, to closest hits and to lights. Rows of the same settings differ "
+      "by "
+      "chance: each has a seed of its own.</p>\n"
       "<h2>References</h2>\n<p>What the figures were compared with. The error that is left in a reference is its "
       "own estimate.</p>\n<div class=\"grid-of-figures\">\n";
   for (const FigureResult& reference : report.references) html += figure_card(reference, report.width);

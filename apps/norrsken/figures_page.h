@@ -10,6 +10,10 @@
 
 namespace norrsken::cli {
 
+/// Pixels along a side, and the sampler, of the report's own figures.
+inline constexpr int kReportSide = 800;
+inline constexpr const char* kReportSampler = "independent";
+
 /// One rendering of the room: how, at what cost, and how far from its reference.
 struct FigureResult {
   std::string name;  ///< "Figure 5"; also the first word of what a reader is told about it

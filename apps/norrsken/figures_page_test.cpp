@@ -109,6 +109,18 @@ TEST(FiguresPage, RefersToNothingButItsOwnImages) {
   EXPECT_THAT(html, HasSubstr("-o &#39;a &amp; b&#39;"));
 }
 
+TEST(FiguresPage, SaysHowItsSettingsDifferFromTheReports) {
+  FiguresReport report = small_report();
+  EXPECT_THAT(figures_page(report),
+              HasSubstr("at the report's settings but for the size, which is 800 × 800 there: 200 "
+                        "× 200 pixels, 3 bounces, independent sampling"));
+  report.figures.front().sampler = "sobol";
+  EXPECT_THAT(figures_page(report), HasSubstr(" there and the sampling, which is independent there: 200 "));
+  report.figures.front().sampler = "independent";
+  report.width = report.height = 800;
+  EXPECT_THAT(figures_page(report), HasSubstr("at the report's own settings: 800 × 800 pixels"));
+}
+
 TEST(FiguresPage, TellsTheRatiosOfEqualError) {
   const std::string html = figures_page(small_report());
   EXPECT_THAT(html, HasSubstr("2 times as many samples"));

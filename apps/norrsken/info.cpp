@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "image_info.h"
 #include "session.h"
 #include "text_format.h"
 
@@ -49,6 +50,8 @@ void print_as_json(const std::string& scene, const SceneInfo& info) {
                                      {"embree_estimate_bytes", info.memory.embree}}},
                                    {"parameters", parameters},
                                    {"changes", info.changes},
+                                   {"files", info.files},
+                                   {"hash", info.hash},
                                    {"items", items}};
   if (!info.accelerator.empty()) object["accelerator"] = info.accelerator;
   print_json(object);
@@ -77,8 +80,9 @@ void print_as_text(const std::string& scene, const SceneInfo& info) {
   row("memory", fmt::format("geometry {}, textures {}, other tables {}; film {}, its image {}",
                             format_bytes(memory.geometry), format_bytes(memory.textures),
                             format_bytes(memory.other_tables), format_bytes(memory.film), format_bytes(memory.image)));
-  row("", fmt::format("{} at most while it was loaded, film and image included; about {} for Embree, if it is used",
+  row("", fmt::format("{} at most while it was loaded, without film and image; about {} for Embree, if it is used",
                       format_bytes(memory.loading), format_bytes(memory.embree)));
+  row("hash", fmt::format("{} of its files ({} beside what is built in)", info.hash, info.files.size()));
 
   if (!info.parameters.empty()) {
     print_line("parameters (-DNAME=VALUE)");
@@ -104,7 +108,17 @@ void print_as_text(const std::string& scene, const SceneInfo& info) {
   }
 }
 
+/// Images are what they are: nothing is set in them.
+ExitStatus tell_of_image(const Arguments& arguments) {
+  const SceneArguments& scene = arguments.scene;
+  if (!scene.definitions.empty() || scene.integrator || scene.sampler || !scene.size.empty() || scene.spp > 0)
+    throw Failure(ExitStatus::usage,
+                  fmt::format("'{}' is an image: options of scenes have no place beside it", scene.scene));
+  return tell_image(scene.scene, arguments.json);
+}
+
 ExitStatus tell(const Arguments& arguments) {
+  if (has_image_header(arguments.scene.scene)) return tell_of_image(arguments);
   LoadOptions options = arguments.scene.load_options();
   options.reserve_film = false;
   const SceneInfo info = load_scene(arguments.scene.scene, options).info();
@@ -115,11 +129,13 @@ ExitStatus tell(const Arguments& arguments) {
 }  // namespace
 
 void add_info_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("info", "Tell what a scene contains");
+  CLI::App* command = app.add_subcommand("info", "Tell what a scene contains, or how an image was made");
   auto arguments = std::make_shared<Arguments>();
   arguments->scene.add_to(*command);
   command->add_flag("--json", arguments->json, "Print one JSON object");
-  command->footer("Examples:\n  norrsken info hexagon_room\n  norrsken info room.xml -Dlight=point --json");
+  command->footer(
+      "Examples:\n  norrsken info hexagon_room\n  norrsken info hexagon_room -Dlight=point --json\n  norrsken info "
+      "room.exr");
   command->group("Commands");
   command->callback([&action, arguments] { action = [arguments] { return tell(*arguments); }; });
 }

@@ -5,15 +5,19 @@
 namespace norrsken::cli {
 namespace {
 
-constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
-
 std::atomic<Render*> g_target = nullptr;
-std::atomic<bool> g_requested = false, g_saving = false;
+std::atomic<bool> g_requested = false, g_insisted = false, g_saving = false;
 static_assert(std::atomic<Render*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
               "a signal handler may only touch lock-free atomics");
 
+/// Signals of somebody who may mean it when they come again.
+bool is_from_a_person(int signal_number) {
+  return signal_number == SIGINT || signal_number == SIGTERM || signal_number == SIGHUP;
+}
+
 extern "C" void norrsken_on_interrupt(int signal_number) {
-  const bool again = g_requested.exchange(true);
+  const bool again = is_from_a_person(signal_number) && g_insisted.exchange(true);
+  g_requested.store(true);
   if (g_saving.load()) return;
   if (again) {
     // Blocked until this handler returns, and then deadly.
@@ -38,7 +42,12 @@ SignalHandlers::SignalHandlers() {
 }
 
 SignalHandlers::~SignalHandlers() {
-  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &old_[i], nullptr);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    // A warning that has been heeded does not kill on the way out.
+    const bool is_heeded = g_requested.load() && !is_from_a_person(kSignals[i]) && old_[i].sa_handler == SIG_DFL;
+    is_heeded ? static_cast<void>(std::signal(kSignals[i], SIG_IGN))
+              : static_cast<void>(sigaction(kSignals[i], &old_[i], nullptr));
+  }
 }
 
 // The handlers are members: they are there before the body sets what they act on, and go after it is taken back.

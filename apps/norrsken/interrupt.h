@@ -1,4 +1,6 @@
-// Ctrl-C, SIGTERM and a closed terminal (SIGHUP): the first cancels the rendering, the second ends the program.
+// Ctrl-C, SIGTERM and a closed terminal (SIGHUP): the first cancels the rendering, the second ends the program. The
+// signals with which batch systems say that time is running out (SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM) cancel it, too,
+// however often they come: SIGXCPU comes every second.
 #pragma once
 
 #include <array>
@@ -8,7 +10,7 @@
 
 namespace norrsken::cli {
 
-/// SIGINT, SIGTERM and SIGHUP are ours while it lives. One that was ignored before, as under nohup, stays ignored.
+/// These signals are ours while it lives. One that was ignored before, as under nohup, stays ignored.
 class SignalHandlers {
  public:
   SignalHandlers();
@@ -17,10 +19,13 @@ class SignalHandlers {
   SignalHandlers& operator=(const SignalHandlers&) = delete;
 
  private:
-  std::array<struct sigaction, 3> old_{};
+  static constexpr std::array<int, 7> kSignals = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM};
+
+  std::array<struct sigaction, kSignals.size()> old_{};
 };
 
-/// While it lives, the first signal cancels `render`, also one that came earlier, and a second one kills the program.
+/// While it lives, the first signal cancels `render`, also one that came earlier, and a second SIGINT, SIGTERM or SIGHUP
+/// kills the program.
 /// One at a time.
 class InterruptGuard {
  public:

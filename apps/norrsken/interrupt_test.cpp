@@ -54,6 +54,19 @@ void interrupt_between_renderings() {
   finish(render.cancelled == 1);
 }
 
+void warn_again_and_again() {
+  {
+    FakeRender render;
+    const InterruptGuard guard(render);
+    for (int i = 0; i < 3; ++i) {
+      for (const int signal_number : {SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM}) std::raise(signal_number);
+    }
+    std::raise(SIGTERM);  // as Slurm sends when time is up
+  }
+  std::raise(SIGXCPU);  // on the way out
+  finish(interrupt_requested());
+}
+
 void hang_up_when_ignored() {
   std::signal(SIGHUP, SIG_IGN);
   FakeRender render;
@@ -65,9 +78,13 @@ void hang_up_when_ignored() {
 }
 
 TEST(InterruptDeathTest, TheFirstSignalCancelsAndTheSecondKills) {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP})
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM})
     EXPECT_EXIT(cancel_once(signal_number), testing::ExitedWithCode(0), "") << signal_number;
   EXPECT_EXIT(interrupt_twice(), testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(InterruptDeathTest, WarningsOfBatchSystemsDiscardNothingHoweverOftenTheyCome) {
+  EXPECT_EXIT(warn_again_and_again(), testing::ExitedWithCode(0), "");
 }
 
 TEST(InterruptDeathTest, SavingIsNotInterrupted) {

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "commands.h"
 #include "console.h"
@@ -20,6 +23,16 @@ ExitStatus usage_error(const CLI::App& app, const std::string& message) {
   return ExitStatus::usage;
 }
 
+/// Words that other programs have for what are options here.
+std::vector<std::string> with_known_words(std::vector<std::string> words) {
+  if (words.empty()) return words;
+  if (words[0] == "version" || words[0] == "-V") words[0] = "--version";
+  if (words[0] != "help") return words;
+  words[0] = "--help";
+  if (words.size() > 1) std::swap(words[0], words[1]);  // help render: render --help
+  return words;
+}
+
 ExitStatus run(int argc, char** argv) {
   CLI::App app("Norrsken, a Monte Carlo ray tracer for the CPU", "norrsken");
   app.set_version_flag("--version", version_text, "Print the version and the instruction sets this processor can run");
@@ -29,10 +42,10 @@ ExitStatus run(int argc, char** argv) {
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.footer(
       "Examples:\n"
-      "  norrsken render hexagon_room -o room.png --spp 64\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1 -o room.png --spp 64\n"
       "  norrsken render hexagon_room -Dlight=point -Dshadow_rays=1 -o room.exr -o room.png\n"
       "  norrsken figures -o figures --quick\n\n"
-      "'norrsken COMMAND --help' tells the options of a command.\n"
+      "'norrsken COMMAND --help' or 'norrsken help COMMAND' tells the options of a command.\n"
       "Exit status: 0 done, 64 wrong command line, 65 wrong scene, 66 missing input, 70 internal fault,\n"
       "73 cannot create output, 74 write error, 77 interrupted (render saves what there is).");
   Action action;
@@ -48,13 +61,15 @@ ExitStatus run(int argc, char** argv) {
     print_note(app.help());
     return ExitStatus::usage;
   }
-  const std::string first = argv[1];
+  std::vector<std::string> words = with_known_words({argv + 1, argv + argc});
+  const std::string first = words.front();
   const auto names = command_names(app);
   if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end())
     return usage_error(app, unknown_word("command", first, names));
 
   try {
-    app.parse(argc, argv);
+    std::ranges::reverse(words);  // as CLI11 takes them
+    app.parse(std::move(words));
   } catch (const CLI::Success& success) {  // --help and --version
     app.exit(success);
     finish_stdout();

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "commands.h"
 #include "console.h"
+#include "file_use.h"
 #include "interrupt.h"
 #include "session.h"
 #include "text_format.h"
@@ -37,31 +39,45 @@ ExitStatus status_of(const std::vector<std::string>& files) {
 }
 
 ExitStatus merge(const Arguments& arguments) {
-  if (const ExitStatus outputs = check_outputs(arguments.outputs); outputs != ExitStatus::done) return outputs;
+  const std::vector<std::string> outputs = without_repetitions(arguments.outputs);
+  if (const ExitStatus status = check_outputs(outputs); status != ExitStatus::done) return status;
+  const ExitStatus clash = check_written_files(outputs, uses_of(arguments.files, "one of the files to merge"));
+  if (clash != ExitStatus::done) return clash;
   MergedRender merged;
   const IoStatus status = merge_renders(arguments.files, arguments.layers, merged, arguments.memory.budget());
   if (!status) throw Failure(status_of(arguments.files), status.error);
 
   if (!merged.gaps.empty()) print_warning(fmt::format("no file holds the samples {}", list_of(merged.gaps)));
+  for (const MergedRender::Unfinished& part : merged.unfinished)
+    print_warning(fmt::format("'{}' is not finished: it holds {} of {} per pixel", part.file,
+                              format_digits(part.samples_per_pixel), format_plural(part.goal, "sample")));
+  if (merged.pixels_without_samples > 0)
+    print_warning(fmt::format("{} no sample yet and {} black",
+                              merged.pixels_without_samples == 1
+                                  ? "1 pixel has"
+                                  : fmt::format("{} pixels have", merged.pixels_without_samples),
+                              merged.pixels_without_samples == 1 ? "is" : "are"));
   const SavingGuard guard;
-  for (const std::string& path : arguments.outputs)
-    write_image_or_fail(path, merged.image, arguments.tone.tone_mapping());
+  for (const std::string& path : outputs) write_image_or_fail(path, merged.image, arguments.tone.tone_mapping());
   if (arguments.quiet) return ExitStatus::done;
-  std::uint64_t count = 0;
-  for (const SampleRange& range : merged.samples) count += range.count();
-  print_note(fmt::format("{} x {} pixels, {} per pixel ({}) of {}", merged.image.width, merged.image.height,
-                         format_plural(static_cast<int>(count), "sample"), list_of(merged.samples),
-                         format_plural(static_cast<int>(arguments.files.size()), "file")));
-  print_note(fmt::format("wrote {}", fmt::join(arguments.outputs, ", ")));
+  const bool is_whole = merged.unfinished.empty() && merged.samples_per_pixel == std::floor(merged.samples_per_pixel);
+  print_note(fmt::format("{} x {} pixels, {} per pixel{} of {}, {}", merged.image.width, merged.image.height,
+                         is_whole ? format_plural(static_cast<std::uint64_t>(merged.samples_per_pixel), "sample")
+                                  : format_digits(merged.samples_per_pixel) + " samples",
+                         is_whole ? fmt::format(" ({})", list_of(merged.samples)) : "",
+                         format_plural(arguments.files.size(), "file"),
+                         error_text(merged.error, merged.samples_per_pixel)));
+  print_note(fmt::format("wrote {}", fmt::join(outputs, ", ")));
   return ExitStatus::done;
 }
 
 }  // namespace
 
 void add_merge_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("merge", "Join the samples that several renderings of a scene have taken");
+  CLI::App* command = app.add_subcommand(
+      "merge", "Make an image of checkpoints: join the samples that renderings of a scene have taken");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("FILE", arguments->files, "Checkpoints that 'norrsken render --samples A:B' has completed")
+  command->add_option("FILE", arguments->files, "Checkpoints that 'norrsken render' has written, finished or not")
       ->required()
       ->type_name("");
   command->add_option("-o,--output", arguments->outputs, "Image to write: .exr, .png or .jpg; may be repeated")
@@ -80,10 +96,10 @@ void add_merge_command(CLI::App& app, Action& action) {
       "of\n"
       "other scenes, settings or instruction sets are refused, and so are samples that two files hold; samples that "
       "no\n"
-      "file holds are told.\n\n"
+      "file holds are told, and files that are not finished: renderings may go on writing them.\n\n"
       "Examples:\n"
-      "  norrsken render room.xml --samples 0:512 --checkpoint a.part\n"
-      "  norrsken render room.xml --samples 512:1024 --checkpoint b.part\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1 --samples 0:32 --checkpoint a.part\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1 --samples 32:64 --checkpoint b.part\n"
       "  norrsken merge a.part b.part -o room.exr -o room.png");
   command->group("Commands");
   command->callback([&action, arguments] { action = [arguments] { return merge(*arguments); }; });

@@ -78,6 +78,7 @@ ProcessResult run_program(const std::vector<std::string>& arguments, const Proce
   const auto start = Clock::now();
   auto next_signal = start + options.signal_delay;
   std::size_t signals_sent = 0;
+  bool is_time = !options.signal_when;
   std::array<pollfd, 2> files = {{{out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}}};
   while (files[0].fd >= 0 || files[1].fd >= 0) {
     constexpr std::chrono::milliseconds kLongest(20);
@@ -95,7 +96,8 @@ ProcessResult run_program(const std::vector<std::string>& arguments, const Proce
         files[i].fd = -1;
     }
     const auto now = Clock::now();
-    if (signals_sent < options.signals.size() && now >= next_signal) {
+    if (!is_time && options.signal_when()) is_time = true, next_signal = now;
+    if (is_time && signals_sent < options.signals.size() && now >= next_signal) {
       kill(child, options.signals[signals_sent++]);
       next_signal = now + options.signal_delay;
     }

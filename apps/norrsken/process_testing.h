@@ -23,7 +23,8 @@ struct ProcessOptions {
   std::uint64_t largest_file = 0;               ///< bytes beyond which no file grows; 0: without limit
   std::uint64_t address_space = 0;              ///< bytes of addresses that it may have; 0: without limit
   std::vector<int> signals = {};                ///< sent one after the other ...
-  std::chrono::milliseconds signal_delay{700};  ///< ... each after this time
+  std::chrono::milliseconds signal_delay{700};  ///< ... each after this time, ...
+  std::function<bool()> signal_when = {};       ///< ... or the first when this becomes true
 };
 
 /// Runs the program with these arguments to its end; kills it after two minutes.

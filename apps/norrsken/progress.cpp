@@ -43,7 +43,7 @@ std::string progress_line(const std::string& label, const RenderProgress& progre
   if (progress.seconds_left > 0) parts[kTime] += fmt::format(", {} left", coarse_duration(progress.seconds_left));
   if (progress.samples_per_second > 0)
     parts[kSpeed] = fmt::format("  {} Msamples/s", format_digits(progress.samples_per_second / 1e6));
-  if (progress.error.value >= 0) parts[kError] = "  error " + format_percent(progress.error.value);
+  if (progress.error.value > 0) parts[kError] = "  error " + format_percent(progress.error.value);
 
   const auto length = [&] {
     return std::accumulate(parts.begin(), parts.end(), 0,
@@ -59,7 +59,7 @@ void add_error(nlohmann::ordered_json& object, const RelativeError& error) {
   object["relative_error_interval"] = nullptr;
   if (error.value < 0) return;
   object["relative_error"] = error.value;
-  object["relative_error_interval"] = {error.low, error.high};
+  if (error.value > 0) object["relative_error_interval"] = {error.low, error.high};
 }
 
 void ProgressMeter::start(std::string label) {

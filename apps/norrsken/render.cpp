@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "file_use.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "replay.h"
@@ -23,7 +24,7 @@ struct Arguments {
   ReplayArguments replay;
   std::vector<std::string> outputs;
   std::uint64_t seed = 0;
-  std::string samples, checkpoint, checkpoint_every = "60s";
+  std::string samples, checkpoint, checkpoint_every;
   std::string target_error, time;
   bool adaptive = false, layers = false, features = false, quiet = false, json = false;
 
@@ -50,18 +51,6 @@ bool is_exr(const std::string& path) {
 std::string default_output(const std::string& scene) {
   const std::string stem = std::filesystem::path(scene).stem().string();
   return (stem.empty() ? "render" : stem) + ".exr";
-}
-
-/// Without those that are there already, "a.exr" and "./a.exr" being the same.
-std::vector<std::string> without_repetitions(const std::vector<std::string>& paths) {
-  std::vector<std::string> result;
-  for (const std::string& path : paths) {
-    const auto is_same = [normal = std::filesystem::path(path).lexically_normal()](const std::string& other) {
-      return std::filesystem::path(other).lexically_normal() == normal;
-    };
-    if (std::none_of(result.begin(), result.end(), is_same)) result.push_back(path);
-  }
-  return result;
 }
 
 /// Options that cannot have an effect on any of the files asked for.
@@ -191,9 +180,7 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
                                  format_digits(rays / seconds / 1e6));
   if (statistics.samples_resumed > 0)
     text += fmt::format(", {} from the checkpoint", format_count(static_cast<double>(statistics.samples_resumed)));
-  if (statistics.error.value >= 0)
-    text += fmt::format(", estimated error {} ({} to {})", format_percent(statistics.error.value),
-                        format_percent(statistics.error.low), format_percent(statistics.error.high));
+  text += ", " + error_text(statistics.error, samples / pixels);
   text += fmt::format(" ({}, {}, {}, {})", statistics.isa, format_plural(statistics.lanes, "lane"),
                       format_plural(statistics.threads, "thread"), statistics.accelerator);
   print_note(text);
@@ -202,7 +189,9 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
   const double per_pixel = samples / pixels;
   const std::optional<int> asked = sample_count(arguments, info);
   const bool is_saved = !arguments.checkpoint.empty() && statistics.checkpoint_error.empty();
-  const std::string advice = is_saved ? "; the same command goes on" : "";
+  const std::string advice = is_saved                       ? "; the same command goes on"
+                             : arguments.checkpoint.empty() ? "; with --checkpoint FILE, the same command would go on"
+                                                            : "";
   if (!written.empty())
     print_note(fmt::format("interrupted: the image holds {}{} per pixel{}",
                            per_pixel < 1 ? fmt::format("{:.2g}", per_pixel) : format_digits(per_pixel),
@@ -215,8 +204,8 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
 }
 
 ExitStatus replay(const Arguments& arguments) {
-  if (!arguments.outputs.empty() || !arguments.checkpoint.empty() || !arguments.samples.empty() ||
-      arguments.is_open() || arguments.adaptive)
+  if (!arguments.outputs.empty() || !arguments.checkpoint.empty() || !arguments.checkpoint_every.empty() ||
+      !arguments.samples.empty() || arguments.is_open() || arguments.adaptive)
     throw Failure(ExitStatus::usage,
                   "--pixel prints one sample: -o, --checkpoint, --samples, --target-error, --time and --adaptive have "
                   "no place beside it");
@@ -226,14 +215,47 @@ ExitStatus replay(const Arguments& arguments) {
   return replay(scene, arguments.sampling(), arguments.replay, arguments.json);
 }
 
-ExitStatus render(Arguments arguments) {
-  if (arguments.replay.wanted()) return replay(arguments);
-  if (!arguments.samples.empty() && arguments.checkpoint.empty())
+/// A Failure for options that have no meaning together.
+void check_combination(const Arguments& arguments) {
+  if (!arguments.checkpoint_every.empty() && arguments.checkpoint.empty())
+    throw Failure(ExitStatus::usage, "--checkpoint-every needs --checkpoint FILE, which is written so often");
+  const auto samples = parse_samples(arguments.samples);
+  if (!samples) return;
+  if (arguments.checkpoint.empty())
     throw Failure(ExitStatus::usage, "--samples needs --checkpoint FILE, which receives what 'norrsken merge' joins");
-  if (!arguments.samples.empty() && (arguments.is_open() || arguments.adaptive))
+  if (arguments.is_open() || arguments.adaptive)
     throw Failure(
         ExitStatus::usage,
         "--samples takes all samples of a range: --target-error, --time and --adaptive have no place beside it");
+  const int spp = arguments.scene.spp;  // beside a range, how many samples its image is to have in all
+  if (spp > 0 && samples->end > static_cast<std::uint32_t>(spp))
+    throw Failure(ExitStatus::usage, fmt::format("--samples {} ends behind the {} of --spp", arguments.samples,
+                                                 format_plural(spp, "sample")));
+}
+
+/// Tells which of the files that are written are read, too, or are one file, and images that are too large for their
+/// formats: what the first of that means, or `done`.
+ExitStatus check_files(const Arguments& arguments, const SceneInfo& info) {
+  const std::vector<FileUse> read = uses_of(info.files, "a file that the scene reads");
+  std::vector<FileUse> taken = read;
+  ExitStatus result = ExitStatus::done;
+  const auto note = [&](ExitStatus status) {
+    if (result == ExitStatus::done) result = status;
+  };
+  if (!arguments.checkpoint.empty()) {
+    for (const std::string& path : checkpoint_files(arguments.checkpoint)) {
+      note(check_written_files({path}, read));
+      taken.push_back({path, path == arguments.checkpoint ? "the checkpoint" : "a file of the checkpoint"});
+    }
+  }
+  note(check_written_files(arguments.outputs, taken));
+  note(check_image_sizes(arguments.outputs, info.width, info.height));
+  return result;
+}
+
+ExitStatus render(Arguments arguments) {
+  if (arguments.replay.wanted()) return replay(arguments);
+  check_combination(arguments);
   // A part of the samples is there to be merged, and only shown if that is asked for.
   if (arguments.outputs.empty() && arguments.samples.empty())
     arguments.outputs = {default_output(arguments.scene.scene)};
@@ -243,6 +265,7 @@ ExitStatus render(Arguments arguments) {
 
   const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet, outputs);
   const SceneInfo info = scene.info();
+  if (const ExitStatus status = check_files(arguments, info); status != ExitStatus::done) return status;
   RenderOptions options = arguments.sampling();
   options.features = arguments.features;
   if (!arguments.samples.empty()) options.samples = parse_samples(arguments.samples);
@@ -251,7 +274,7 @@ ExitStatus render(Arguments arguments) {
   options.seconds = parse_duration(arguments.time).value_or(0);
   options.adaptive = arguments.adaptive;
   options.checkpoint = arguments.checkpoint;
-  options.checkpoint_seconds = parse_duration(arguments.checkpoint_every).value();
+  options.checkpoint_seconds = parse_duration(arguments.checkpoint_every).value_or(options.checkpoint_seconds);
   const auto rendering = create_render(scene, options, !arguments.quiet);
   tell_start(arguments, info);
 
@@ -295,6 +318,7 @@ void add_render_command(CLI::App& app, Action& action) {
   command
       ->add_option("--checkpoint", arguments->checkpoint,
                    "File that keeps the state of the rendering; the same command goes on from it, also with more --spp")
+      ->check(file_name())
       ->type_name("FILE");
   command
       ->add_option("--checkpoint-every", arguments->checkpoint_every,
@@ -304,7 +328,8 @@ void add_render_command(CLI::App& app, Action& action) {
   command
       ->add_option(
           "--samples", arguments->samples,
-          "Take the samples A to B-1 of each pixel alone and leave them in the checkpoint, for 'norrsken merge'")
+          "Take the samples A to B-1 of each pixel alone (of --spp in all) and leave them in the checkpoint, for\n"
+          "'norrsken merge'")
       ->check(sample_range())
       ->type_name("A:B");
   command
@@ -313,7 +338,9 @@ void add_render_command(CLI::App& app, Action& action) {
                    "--spp is the most to take then")
       ->check(share())
       ->type_name("E");
-  command->add_option("--time", arguments->time, "Render for so long: 30s, 5m, 1h; --spp is the most to take then")
+  command
+      ->add_option("--time", arguments->time,
+                   "Render for so long: 30s, 5m, 1h, without loading and writing; --spp is\nthe most to take then")
       ->check(duration())
       ->type_name("TIME");
   command->add_flag("--adaptive", arguments->adaptive,
@@ -324,23 +351,24 @@ void add_render_command(CLI::App& app, Action& action) {
                     "Add depth, normal, albedo and object id of the first hits too (implies --layers)");
   arguments->tone.add_to(*command);
   arguments->replay.add_to(*command);
-  auto* quiet = command->add_flag("--quiet", arguments->quiet, "Print errors only");
-  command->add_flag("--json", arguments->json, "Print one JSON object a line on stdout: start, progress, done")
-      ->excludes(quiet);
+  command->add_flag("--quiet", arguments->quiet, "Print errors only; with --json, start and done only");
+  command->add_flag("--json", arguments->json, "Print one JSON object a line on stdout: start, progress, done");
   command->footer(
       "Ctrl-C, SIGTERM or SIGHUP stops the rendering, writes what there is and exits with status 77; a second one\n"
-      "discards it (not the last checkpoint). The same scene, seed and options give the same image for any number of "
+      "discards it (not the last checkpoint). SIGUSR1, SIGUSR2, SIGXCPU and SIGALRM, with which batch systems warn, "
+      "stop\n"
+      "it likewise, and discard nothing. The same scene, seed and options give the same image for any number of "
       "threads.\n\n"
       "Examples:\n"
-      "  norrsken render hexagon_room                              writes hexagon_room.exr\n"
-      "  norrsken render room.xml -o room.png --spp 256 --exposure 0.5 --tone filmic\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1              writes hexagon_room.exr\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1 -o room.png --spp 128 --exposure 1.5 --tone filmic\n"
       "  norrsken render hexagon_room -Dlight=point -Dshadow_rays=1 -o a.exr -o a.png --layers\n"
-      "  norrsken render room.xml --size 1920x1080 --json\n"
-      "  norrsken render room.xml --target-error 1% --adaptive\n"
-      "  norrsken render room.xml --time 30s --layers\n"
-      "  norrsken render room.xml --spp 4096 --checkpoint room.ckpt --checkpoint-every 10m\n"
-      "  norrsken render room.xml --samples 0:512 --checkpoint a.part\n"
-      "  norrsken render room.xml --pixel 12,40 --sample 3 --trace");
+      "  norrsken render hexagon_room -Dshadow_rays=1 --size 1920x1080 --json\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1 --target-error 5% --adaptive\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1 --time 30s --layers\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1 --spp 4096 --checkpoint room.ckpt --checkpoint-every 10m\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1 --samples 0:32 --checkpoint a.part\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1 --pixel 400,500 --sample 3 --trace");
   command->group("Commands");
   command->callback([&action, arguments] { action = [arguments] { return render(*arguments); }; });
 }

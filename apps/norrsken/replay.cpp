@@ -27,8 +27,9 @@ std::string describe_vertex(const PathVertex& v, std::size_t number, bool is_las
                                  text_of(v.direction), text_of(v.throughput));
   if (v.pdf_sa != 0) text += fmt::format(", sampled with density {:.6g}", v.pdf_sa);
   if (v.hit) {
-    text += fmt::format("\n     meets shape {}, primitive {}, after {:.6g} at {}: {}", v.shape, v.primitive, v.distance,
-                        text_of(v.position), v.bsdf);
+    const std::string id = v.shape_id.empty() ? "" : fmt::format(" '{}'", v.shape_id);
+    text += fmt::format("\n     meets shape {}{}, primitive {}, after {:.6g} at {}: {}", v.shape, id, v.primitive,
+                        v.distance, text_of(v.position), v.bsdf);
   } else {
     text += is_last && number > 1 ? "\n     meets nothing that emits" : "\n     meets nothing";
   }
@@ -49,6 +50,7 @@ nlohmann::ordered_json json_of(const PathVertex& v) {
     object["distance"] = v.distance;
     object["position"] = v.position;
     object["shape"] = v.shape;
+    object["shape_id"] = v.shape_id.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(v.shape_id);
     object["primitive"] = v.primitive;
     object["bsdf"] = v.bsdf;
   }

@@ -49,8 +49,11 @@ std::unique_ptr<Render> create_render(const Scene& scene, const RenderOptions& o
   Diagnostics diagnostics;
   auto render = Render::create(scene, options, diagnostics);
   print_diagnostics(diagnostics, with_warnings);
-  if (!render) throw Failure(any_error_names_a_file(diagnostics) ? ExitStatus::data_error : ExitStatus::usage, "");
-  return render;
+  if (render) return render;
+  // Another process may have taken the checkpoint while the scene was loaded.
+  if (!options.checkpoint.empty() && !check_checkpoint_writable(options.checkpoint))
+    throw Failure(ExitStatus::cannot_create, "");
+  throw Failure(any_error_names_a_file(diagnostics) ? ExitStatus::data_error : ExitStatus::usage, "");
 }
 
 ExitStatus check_outputs(const std::vector<std::string>& images, const std::string& checkpoint) {
@@ -64,6 +67,17 @@ ExitStatus check_outputs(const std::vector<std::string>& images, const std::stri
     complain(check_writable(path), check_image_name(path) ? ExitStatus::cannot_create : ExitStatus::usage);
   }
   if (!checkpoint.empty()) complain(check_checkpoint_writable(checkpoint), ExitStatus::cannot_create);
+  return result;
+}
+
+ExitStatus check_image_sizes(const std::vector<std::string>& images, int width, int height) {
+  ExitStatus result = ExitStatus::done;
+  for (const std::string& path : images) {
+    const IoStatus status = check_image_size(path, width, height);
+    if (status) continue;
+    print_error(status.error);
+    result = ExitStatus::cannot_create;
+  }
   return result;
 }
 

@@ -29,6 +29,9 @@ std::unique_ptr<Render> create_render(const Scene& scene, const RenderOptions& o
 /// empty: `usage` if the extension of an image is unknown, otherwise `cannot_create`, or `done`.
 ExitStatus check_outputs(const std::vector<std::string>& images, const std::string& checkpoint = {});
 
+/// Tells on stderr which of these images are too large for their formats: `cannot_create` if there is one, or `done`.
+ExitStatus check_image_sizes(const std::vector<std::string>& images, int width, int height);
+
 /// A Failure (io_error) if the file could not be written.
 void write_image_or_fail(const std::string& path, const Image& image, const ToneMapping& tone);
 

@@ -42,6 +42,15 @@ std::string format_percent(double share) {
   return format_digits(percent) + " %";
 }
 
+std::string error_text(const RelativeError& error, double samples_per_pixel) {
+  if (error.value > 0) {
+    return fmt::format("estimated error {} ({} to {})", format_percent(error.value), format_percent(error.low),
+                       format_percent(error.high));
+  }
+  if (error.value == 0) return "no noise seen";
+  return samples_per_pixel < 2 ? "error not known before every pixel has two samples" : "error unknown: no light seen";
+}
+
 std::string format_plural(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "norrsken/render.h"
+
 namespace norrsken::cli {
 
 /// A value of at least 0 with three significant digits and no exponent: "0.13", "1.23", "12.3", "1234".
@@ -19,6 +21,9 @@ std::string format_count(double count);
 
 /// A share as percent with three significant digits: 0.0123 is "1.23 %"; negative or not finite is "?".
 std::string format_percent(double share);
+
+/// "estimated error 9.45 % (9.1 % to 9.8 %)", or why there is none to tell of an image with so many samples.
+std::string error_text(const RelativeError& error, double samples_per_pixel);
 
 /// "1 sphere", "2 spheres", "0 lights".
 std::string format_plural(std::uint64_t count, std::string_view noun);

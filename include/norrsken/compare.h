@@ -1,6 +1,7 @@
 // How far two images are apart.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,8 +11,9 @@
 
 namespace norrsken {
 
-/// Figures over all pixels of R, G, B, of the image `a` against the reference `b`. Where just one image is infinite or
-/// either is NaN, the figures of linear radiance are infinite or NaN; PSNR and FLIP see what a PNG would show.
+/// Figures over all pixels of R, G, B, of the image `a` against the reference `b`; X, Y, Z are converted, and if one has
+/// luminance alone (Y), both are compared by it. Where just one image is infinite, the figures of linear radiance are
+/// infinite; PSNR and FLIP see what a PNG would show. With a NaN in either image all of them are NaN.
 struct Comparison {
   double mse = 0;      ///< mean squared error of linear radiance, over pixels and channels
   double rel_mse = 0;  ///< mean of (a-b)^2 / (b^2 + 0.01), as in Rousselle et al. 2011
@@ -19,11 +21,15 @@ struct Comparison {
   double flip = 0;     ///< mean LDR-FLIP of the tone-mapped images (Andersson et al. 2020), 0 to 1
   double mean_a = 0;   ///< mean of all channels
   double mean_b = 0;
+  std::uint64_t nan_a = 0, nan_b = 0;  ///< pixels with a NaN
 
-  /// Pixel-wise test of "both estimate the same image", where at least one image carries `variance.R/G/B`
-  /// (the variance of the mean); an image without them counts as exact. Pixel channels without variance on either side
-  /// must be equal; those whose variance is unknown (NaN, infinite, negative) are left out.
+  /// Pixel-wise test of "both estimate the same image", where at least one image carries `variance.R/G/B` (the variance
+  /// of the mean). If the other has none, that does not make it free of noise: what both have together is estimated from the
+  /// differences between neighbouring pixels' errors, and taken where it is more than the variance that is known. Pixel
+  /// channels without variance on either side must be equal; those whose variance is unknown (NaN, infinite, negative) are
+  /// left out.
   struct ZTest {
+    enum class Estimated { neither, a, b } estimated = Estimated::neither;  ///< whose noise is estimated
     double passed_share = 0;  ///< share of pixel channels not rejected at the Sidak-corrected 1 % level
     double mean_z[3] = {};    ///< z-score of the difference of the whole-image means, per channel
     double rms_z = 0;         ///< root mean square of the pixel z-scores; 1 for honest variances and equal means
@@ -37,7 +43,7 @@ struct CompareOptions {
   double pixels_per_degree = 67;              ///< FLIP's viewing condition: 0.7 m from a 0.7 m wide 3840-pixel screen
 };
 
-/// Compares `a` with the reference `b`; both need R, G, B and one size, otherwise `error` says what differs.
+/// Compares `a` with the reference `b`; both need colours and one size, otherwise `error` says what differs.
 /// `difference`, if given, receives channels R, G, B = |a - b| and `flip`.
 IoStatus compare(const Image& a, const Image& b, const CompareOptions& options, Comparison& result,
                  Image* difference = nullptr);

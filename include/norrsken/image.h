@@ -25,7 +25,8 @@ struct Image {
   std::vector<Channel> channels;
   Color exr_color = Color::rgb;  ///< what an EXR holds in place of R, G, B: X, Y, Z or Y
   bool exr_half = false;         ///< an EXR holds colour and A as 16-bit floats, other channels as 32-bit ones
-  std::map<std::string, std::string> metadata;  ///< free text that EXR and PNG headers carry
+  /// Free text that EXR and PNG headers carry. Of images that were rendered: "Software" and "norrsken.*", see docs/cli.md.
+  std::map<std::string, std::string> metadata;
 
   const Channel* find(std::string_view name) const;
   /// Adds a channel of zeros (or returns the one of that name). The reference holds until the next one is added.
@@ -58,8 +59,25 @@ IoStatus write_image(const std::string& path, const Image& image, const ToneMapp
 IoStatus read_image(const std::string& path, Image& image,
                     std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
 
+/// What an EXR or PNG file says about itself before its pixels.
+struct ImageHeader {
+  std::string format;  ///< "EXR" or "PNG"
+  int width = 0, height = 0;
+  std::vector<std::string> channels;  ///< by their names in the file, or as in "R", "G", "B", "A"; grey is "Y"
+  std::map<std::string, std::string> metadata;  ///< its texts; control characters and malformed UTF-8 are replaced
+};
+
+/// Whether a file begins as EXR and PNG files do.
+bool has_image_header(const std::string& path);
+
+/// Reads the header alone. Errors: not a regular file, not EXR or PNG, damaged. `header` changes on success only.
+IoStatus read_image_header(const std::string& path, ImageHeader& header);
+
 /// Whether `write_image` knows the extension: empty, or what is wrong and accepted.
 IoStatus check_image_name(const std::string& path);
+
+/// Whether the format of that extension takes images of this size: empty, or what is wrong and accepted.
+IoStatus check_image_size(const std::string& path, int width, int height);
 
 /// Whether `write_image` could write there, asked before a long render: `check_image_name`, and that the folder exists
 /// and can be written to.

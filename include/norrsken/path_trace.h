@@ -25,6 +25,7 @@ struct PathVertex {
   float distance = 0;
   Triple position{};
   std::uint32_t shape = 0, primitive = 0;  ///< index of the shape in the scene, of the primitive within it
+  std::string shape_id;                    ///< that the scene gives the shape; may be empty
   std::string bsdf;                        ///< as in "diffuse", or "blendbsdf > diffuse" where it was looked through
 
   Triple emission{};  ///< what the ray's end, a surface or the surroundings, added to the sample

@@ -40,14 +40,15 @@ struct RenderOptions {
   bool features = false;             ///< also render depth, normal, albedo and object id of the first hits
   /// File that holds the state of the rendering, if not empty: Render::create takes up what it holds of the same
   /// rendering (fewer samples of it, too), and `run` writes it, at its end as well. The one before stays as FILE.1.
+  /// Render::create refuses it while another Render has it, of this process or another.
   std::string checkpoint = {};
   double checkpoint_seconds = 60;  ///< from one writing to the next
 };
 
-/// Estimated RMSE of an image over its mean.
+/// Estimated RMSE of an image over its mean. Known as soon as every pixel has two samples, if there is any light.
 struct RelativeError {
-  double value = -1;         ///< -1 while unknown
-  double low = 0, high = 0;  ///< holds the true one with a probability of 95 %
+  double value = -1;         ///< -1 while unknown; 0 if no noise was seen, which may be because it is rare
+  double low = 0, high = 0;  ///< holds the true one with a probability of 95 % or more
 };
 
 struct RenderProgress {
@@ -102,12 +103,17 @@ class Render {
   /// `error.R/G/B` (its root; both NaN while a pixel has too few samples to tell), `interval.R/G/B` (half the width of the
   /// interval around the value that holds the true one with a probability of 95 %, from the variances of the pixel and
   /// of its neighbours) and, with RenderOptions::features,
-  /// `depth.Z`, `normal.X/Y/Z`, `albedo.R/G/B`, `id`.
+  /// `depth.Z`, `normal.X/Y/Z`, `albedo.R/G/B`, `id`. Its metadata say how it was made.
   virtual Image image(bool layers = false) const = 0;
 };
 
-/// Whether a checkpoint could be written there, asked before a long render.
+/// Whether a checkpoint could be written there, asked before a long render: the folder can be written to, and no other
+/// process has the checkpoint.
 IoStatus check_checkpoint_writable(const std::string& path);
+
+/// All files that a rendering with this checkpoint may replace or remove: it, the one before, the one that is being
+/// written, and the lock.
+std::vector<std::string> checkpoint_files(const std::string& path);
 
 /// The instruction sets that this build has and this processor can run, best first: "avx512", "avx2", ...
 std::vector<std::string> usable_isas();

@@ -101,5 +101,26 @@ TEST(BsdfHost, TellsMisspeltFromMissing) {
               ElementsAre(StartsWith("error: bsdf 'hair' is not supported yet [")));
 }
 
+/// As Blender's exporter writes every tint: what counts, and is held against the range, is the mean.
+TEST(BsdfHost, ColoursAreNumbersWhereTexturesMayStand) {
+  const auto parameters = [](const std::string& value) {
+    const Compiled c = compile_bsdf(R"(<bsdf type="principled">)" + value + "</bsdf>");
+    EXPECT_THAT(c.messages(), IsEmpty());
+    return std::vector<float>(c.tables().parameters.begin(), c.tables().parameters.end());
+  };
+  for (const char* name : {"roughness", "metallic", "anisotropic", "spec_tint", "sheen_tint", "clearcoat"}) {
+    const std::string named = std::string(" name=\"") + name + "\" value=";
+    const auto wanted = parameters("<float" + named + "\"0.4\"/>");
+    EXPECT_EQ(parameters("<rgb" + named + "\"0.1 0.2 0.9\"/>"), wanted) << name;
+    EXPECT_EQ(parameters("<rgb" + named + "\"0.4\"/>"), wanted) << name;
+    EXPECT_EQ(parameters("<spectrum" + named + "\"0.4\"/>"), wanted) << name;
+    EXPECT_EQ(parameters("<rgb" + named + "\"0 0 1.2\"/>"), wanted) << name;
+  }
+  EXPECT_THAT(compile_bsdf(R"(<bsdf type="principled"><rgb name="metallic" value="1 2 3"/></bsdf>)").messages(),
+              ElementsAre("error: 'metallic' is 2 in the mean [a number from 0 to 1]"));
+  EXPECT_THAT(compile_bsdf(R"(<bsdf type="bumpmap"><rgb name="scale" value="1"/></bsdf>)").messages(),
+              ::testing::Contains("error: 'scale' is an rgb [float]"));
+}
+
 }  // namespace
 }  // namespace norrsken::testing

@@ -41,6 +41,17 @@ TEST_P(EveryBsdf, WeightIsValueOverDensity) {
   });
 }
 
+/// Rays carry it only where one of the models listed occurs.
+TEST_P(EveryBsdf, TellsOfAnEtaIfItIsListed) {
+  on_each_side([&](const LoadedBsdf& bsdf, const LoadedBsdf*) {
+    Random random(3);
+    for (int i = 0; i < 1000 && !is_listed_as_refracting(); ++i) {
+      const BsdfSample s = sample(bsdf, kViews[1].wo, random);
+      ASSERT_TRUE(!s.valid.v || s.eta.v == 1.0f);
+    }
+  });
+}
+
 TEST_P(EveryBsdf, NothingIsScatteredFromBelow) {
   if (GetParam().plugin == "null") return;  // it knows no below: what it is put on may have normals
   on_each_side([](const LoadedBsdf& bsdf, const LoadedBsdf*) {

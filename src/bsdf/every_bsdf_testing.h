@@ -102,6 +102,7 @@ class EveryBsdf : public ::testing::TestWithParam<BsdfCase> {
     }
   }
   bool has_back() const { return sides_.back != nullptr; }
+  bool is_listed_as_refracting() const { return (sides_.compiled.tables().bsdf_kinds & kRefractingKinds) != 0; }
   /// For captions: model, parameters, side and angle.
   std::string configuration(const LoadedBsdf& bsdf, const View& view) const {
     std::string text = std::string(GetParam().plugin) + ", " + std::string(GetParam().name);

@@ -69,7 +69,7 @@ TEST(MaskHost, Refusals) {
   EXPECT_THAT(messages("mask", R"(<float name="opacity" value="1.5"/>)" + kDiffuse),
               ElementsAre("error: 'opacity' is 1.5 [a number from 0 to 1]"));
   EXPECT_THAT(messages("mask", R"(<string name="opacity" value="1"/>)" + kDiffuse),
-              ElementsAre("error: 'opacity' is a string [float]"));
+              ElementsAre("error: 'opacity' is a string [float, rgb, spectrum]"));
   EXPECT_THAT(messages("mask", R"(<float name="opacty" value="1"/>)" + kDiffuse),
               ElementsAre("error: unused parameter 'opacty' of bsdf 'mask', did you mean 'opacity'? [opacity]"));
 }
@@ -95,7 +95,7 @@ TEST(BlendHost, Refusals) {
   EXPECT_THAT(messages("blendbsdf", R"(<float name="weight" value="-1"/>)" + kDiffuse + kNull),
               ElementsAre("error: 'weight' is -1 [a number from 0 to 1]"));
   EXPECT_THAT(messages("blendbsdf", R"(<string name="weight" value="a"/>)" + kDiffuse + kNull),
-              ElementsAre("error: 'weight' is a string [float]"));
+              ElementsAre("error: 'weight' is a string [float, rgb, spectrum]"));
   EXPECT_THAT(messages("blendbsdf", weight + kDiffuse + kNull + R"(<float name="opacity" value="1"/>)"),
               ElementsAre("error: unused parameter 'opacity' of bsdf 'blendbsdf' [weight]"));
 }

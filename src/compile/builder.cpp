@@ -321,6 +321,7 @@ void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
   if (!diagnostics_.has_errors()) measure_film(film_place, options.reserve_film);
   tables().camera = plugin->compile(p, *this, tables().film);
   view_place_ = p.where("far_clip");
+  refuse_kinds_to_come(p);
   p.finish();
 }
 

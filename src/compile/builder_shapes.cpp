@@ -112,6 +112,10 @@ void Builder::compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compil
     const std::uint32_t first_triangle = tables().triangle_count();
     const std::uint32_t shape = geometry_.add(std::move(geometry), material);
     attributes_.add(shape, first_vertex, first_triangle, attributes);
+    if (!node.id.empty()) {
+      scene_.shape_ids.resize(shape + 1);
+      scene_.shape_ids[shape] = node.id;
+    }
     if (emitter && geometry_.in_group()) {
       diagnostics_.error(emitter->location, "an emitter stands inside a shapegroup, whose instances cannot shine",
                          "emitters on shapes of the scene itself");

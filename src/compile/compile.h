@@ -18,7 +18,8 @@ struct LoadedScene {
   std::string file;                      ///< for complaints about the scene as a whole
   SceneTables tables;
   SceneLayers layers;
-  SceneInfo info;  ///< all but `accelerator`, which is chosen when rendering
+  std::vector<std::string> shape_ids;  ///< those that the scene gives its shapes, by their indices; may be shorter
+  SceneInfo info;                      ///< all but `accelerator`, which is chosen when rendering
 };
 
 /// Compiles a description. Overrides in `options` (integrator, sampler, size, samples) win over the scene's own nodes;

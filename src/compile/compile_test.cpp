@@ -51,6 +51,24 @@ TEST(Compile, WarnsOfASceneWithoutLight) {
   EXPECT_THAT(c.messages(), ElementsAre("warning: the scene has no emitter: its image is black"));
 }
 
+TEST(Compile, WhatTheBaseClassesReadIsNotedOnce) {
+  const std::string sensor = R"(<sensor type="perspective"><film type="hdrfilm"><rfilter type="box"/></film>
+    <float name="shutter_open" value="1"/>
+    <integer name="focus_distance" value="5"/>
+    <float name="focus_distanc" value="5"/>
+    <string name="shutter_close" value="late"/></sensor>)";
+  const std::string shape = R"(<shape type="sphere"><float name="silhouette_sampling_weight" value="2"/></shape>
+)";
+  EXPECT_THAT(compile_elements(sensor + kEmitter + shape + shape).messages(),
+              ElementsAre("note: 'shutter_open' of a sensor has no effect here",
+                          "note: 'focus_distance' of a sensor has no effect here (instead: sensor 'thinlens')",
+                          "error: unused parameter 'focus_distanc' of sensor 'perspective', did you mean "
+                          "'focus_distance'? [far_clip, focal_length, fov, fov_axis, near_clip, "
+                          "principal_point_offset_x, principal_point_offset_y, to_world]",
+                          "error: 'shutter_close' is a string [float]",
+                          "note: 'silhouette_sampling_weight' of a shape has no effect here"));
+}
+
 TEST(Compile, TheFirstSensorIsUsed) {
   const Compiled c = compile_elements(
       R"(<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="10"/><rfilter type="box"/></film></sensor>)" +
@@ -76,8 +94,8 @@ TEST(Compile, ASensorIsChosenByNumberOrId) {
     EXPECT_THAT(c.messages(), IsEmpty()) << choice;
     EXPECT_EQ(c.tables().film.width, width) << choice << " (an id comes before a number)";
   }
-  EXPECT_EQ(with_sensor("left").info().items.at(0).detail, "--sensor 0, the one that is used");
-  EXPECT_EQ(with_sensor("left").info().items.at(1).detail, "--sensor 1");
+  EXPECT_EQ(with_sensor("left").info().items.at(1).detail, "--sensor 0, the one that is used");
+  EXPECT_EQ(with_sensor("left").info().items.at(2).detail, "--sensor 1");
   EXPECT_THAT(
       with_sensor("lefft").messages(),
       ElementsAre("error: --sensor: the scene has no sensor 'lefft', did you mean 'left'? [0 or left, 1, 2 or 1]"));
@@ -170,7 +188,7 @@ TEST(Compile, AnOldSceneIsUpgraded) {
   EXPECT_EQ(c.info().max_depth, 7);
   EXPECT_EQ(c.info().samples_per_pixel, 3);
   EXPECT_EQ(c.info().width, 5);
-  EXPECT_EQ(c.info().changes.size(), 11U);
+  EXPECT_EQ(c.info().changes.size(), 10U);
   EXPECT_EQ(c.info().changes.at(0),
             "scene.xml:2:21: integrator 'bdpt' is 'path', which finds the same light in another way");
 

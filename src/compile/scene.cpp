@@ -10,7 +10,7 @@
 #include "compile/compile.h"
 #include "compile/within_memory.h"
 #include "formats/mitsuba_xml.h"
-#include "scene/file_system.h"
+#include "scene/read_files.h"
 
 namespace norrsken {
 namespace {
@@ -62,7 +62,7 @@ SceneArguments scene_arguments(const std::string& path, const FileSystem& files,
 
 std::optional<LoadedScene> load_tables(const std::string& path_or_name, const LoadOptions& options,
                                        Diagnostics& diagnostics) {
-  const FileSystem files;
+  const RecordedFiles files;
   const std::string path = find_scene(path_or_name, files, diagnostics);
   if (path.empty()) return std::nullopt;
   SourceLocation whole_file;
@@ -72,7 +72,11 @@ std::optional<LoadedScene> load_tables(const std::string& path_or_name, const Lo
     description = read_mitsuba_xml(path, files, scene_arguments(path, files, options), diagnostics);
   });
   if (!description) return std::nullopt;
-  return compile(*description, files, options, diagnostics);
+  std::optional<LoadedScene> scene = compile(*description, files, options, diagnostics);
+  if (!scene) return std::nullopt;
+  scene->info.files = files.paths();
+  scene->info.hash = files.fingerprint();
+  return scene;
 }
 
 }  // namespace

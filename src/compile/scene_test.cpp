@@ -325,7 +325,8 @@ TEST(SceneLoad, AnEmptyPluginNameIsNotNoName) {
   options.integrator = options.sampler = "";
   EXPECT_EQ(
       load_messages("hexagon_room", options),
-      "error: unknown integrator ''\naccepted: aov, depth, direct, moment, path, ptracer, whitted\n"
+      "error: unknown integrator ''\naccepted: aov, depth, direct, moment, path, ptracer, volpath, volpathmis, "
+      "whitted\n"
       "error: unknown sampler ''\naccepted: independent, ldsampler, multijitter, orthogonal, sobol, stratified\n");
 }
 

@@ -7,7 +7,9 @@
 
 namespace norrsken {
 
-std::string accepted_memory(std::uint64_t left) { return "up to " + memory_text(left) + ", or a larger --max-memory"; }
+std::string accepted_memory(std::uint64_t left) {
+  return (left > 0 ? "up to " + memory_text(left) + ", or " : "") + "a larger --max-memory";
+}
 
 void within_memory(const SourceLocation& place, const std::string& what, Diagnostics& diagnostics,
                    const std::function<void()>& load) {

@@ -4,51 +4,107 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "color/srgb.h"
 #include "color/tone.h"
 #include "film/flip.h"
+#include "film/z_test.h"
 
 namespace norrsken {
 namespace {
 
 constexpr const char* kColorNames[3] = {"R", "G", "B"};
 constexpr const char* kVarianceNames[3] = {"variance.R", "variance.G", "variance.B"};
-constexpr double kSignificance = 0.01;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What is alive at once at most: tone-mapped planes, FLIP's (opponent colours, filtered ones, features and what a filter
-/// works on).
-constexpr std::uint64_t kBytesPerPixel = 112;
+/// works on), and converted colours and variances of both.
+constexpr std::uint64_t kBytesPerPixel = 144;
 
-using Planes = std::array<const std::vector<float>*, 3>;
+using Values = std::vector<float>;
+
+/// One image as it is compared.
+struct Picture {
+  Planes colors{}, variances{};  ///< variances are null where there are none
+  bool is_luminance = false;
+  std::vector<Values> converted;  ///< what colours and variances point to if the image does not have them so
+};
 
 std::string size_text(const Image& image) { return std::to_string(image.width) + "x" + std::to_string(image.height); }
 
-IoStatus find_colors(const Image& image, const char* which, Planes& planes) {
-  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+/// Null if the image does not have all three.
+std::optional<Planes> find_three(const Image& image, const char* const (&names)[3]) {
+  Planes planes{};
   for (int c = 0; c < 3; ++c) {
-    const Channel* channel = image.find(kColorNames[c]);
-    if (channel == nullptr) {
-      std::vector<std::string> names;
-      for (const Channel& existing : image.channels) names.push_back(existing.name);
-      return {std::string(which) + " image has no channel " + kColorNames[c] + "; it has " +
-              (names.empty() ? "none" : join(names))};
-    }
-    if (channel->values.size() != pixels) {
-      return {std::string(which) + " image: channel " + kColorNames[c] + " does not have " + size_text(image) +
-              " pixels"};
-    }
+    const Channel* channel = image.find(names[c]);
+    if (channel == nullptr) return std::nullopt;
     planes[c] = &channel->values;
+  }
+  return planes;
+}
+
+template <class Convert>
+Values convert(const Planes& from, const Convert& value_of) {
+  Values result(from[0]->size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] = static_cast<float>(value_of(ColorVector{(*from[0])[i], (*from[1])[i], (*from[2])[i]}));
+  }
+  return result;
+}
+
+IoStatus find_colors(const Image& image, const char* which, Picture& picture) {
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  for (const Channel& channel : image.channels) {
+    if (channel.values.size() == pixels) continue;
+    return {std::string(which) + " image: channel " + channel.name + " does not have " + size_text(image) + " pixels"};
+  }
+  picture.converted.reserve(6);
+  if (const auto variances = find_three(image, kVarianceNames)) picture.variances = *variances;
+  if (const auto rgb = find_three(image, kColorNames)) {
+    picture.colors = *rgb;
+  } else if (const auto xyz = find_three(image, {"X", "Y", "Z"})) {
+    for (int c = 0; c < 3; ++c) {
+      const auto component = [c](const ColorVector& v) { return (kSrgbFromXyz * v)[c]; };
+      picture.colors[c] = &picture.converted.emplace_back(convert(*xyz, component));
+    }
+  } else if (const Channel* luminance = image.find("Y")) {
+    picture.is_luminance = true;
+    picture.colors.fill(&luminance->values);
+  } else {
+    std::vector<std::string> names;
+    for (const Channel& existing : image.channels) names.push_back(existing.name);
+    return {std::string(which) + " image has neither R, G, B nor X, Y, Z nor Y; it has " +
+            (names.empty() ? "none" : join(names))};
   }
   return {};
 }
 
-/// Equal values are no distance apart, infinities too.
-double difference_of(float a, float b) { return a == b ? 0.0 : static_cast<double>(a) - static_cast<double>(b); }
+/// Colours become luminance; so do variances, as if the channels erred together, which they nearly do.
+void reduce_to_luminance(Picture& picture) {
+  const auto& weights = kXyzFromSrgb[1];
+  if (!picture.is_luminance) {
+    picture.colors.fill(&picture.converted.emplace_back(convert(picture.colors, [&](const ColorVector& v) {
+      return weights[0] * v[0] + weights[1] * v[1] + weights[2] * v[2];
+    })));
+  }
+  if (picture.variances[0] == nullptr) return;
+  picture.variances.fill(&picture.converted.emplace_back(convert(picture.variances, [&](const ColorVector& v) {
+    const double deviation = weights[0] * std::sqrt(v[0]) + weights[1] * std::sqrt(v[1]) + weights[2] * std::sqrt(v[2]);
+    return deviation * deviation;
+  })));
+}
+
+std::uint64_t count_nan(const Planes& planes) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < planes[0]->size(); ++i) {
+    if (std::ranges::any_of(planes, [i](const Values* plane) { return std::isnan((*plane)[i]); })) ++count;
+  }
+  return count;
+}
 
 void compare_radiance(const Planes& a, const Planes& b, Comparison& result) {
   double squared = 0, relative = 0, sum_a = 0, sum_b = 0;
@@ -91,61 +147,6 @@ double psnr(const DisplayImage& a, const DisplayImage& b) {
   return squared == 0 ? kInfinity : -10 * std::log10(squared / (3.0 * static_cast<double>(a.planes[0].size())));
 }
 
-/// The z-score of a difference of the given variance; without variance any difference is infinitely many deviations.
-double z_score(double difference, double variance) {
-  if (difference == 0) return 0;
-  return variance > 0 ? difference / std::sqrt(variance) : std::copysign(kInfinity, difference);
-}
-
-std::optional<Comparison::ZTest> z_test(const Image& image_a, const Image& image_b, const Planes& a, const Planes& b) {
-  const std::size_t pixels = a[0]->size();
-  std::array<const float*, 3> variance_a{}, variance_b{};
-  bool any = false;
-  for (int c = 0; c < 3; ++c) {
-    const auto values_of = [&](const Image& image) -> const float* {
-      const Channel* channel = image.find(kVarianceNames[c]);
-      return channel != nullptr && channel->values.size() == pixels ? channel->values.data() : nullptr;
-    };
-    variance_a[c] = values_of(image_a);
-    variance_b[c] = values_of(image_b);
-    any = any || variance_a[c] != nullptr || variance_b[c] != nullptr;
-  }
-  if (!any) return std::nullopt;
-
-  Comparison::ZTest result;
-  std::vector<double> scores;
-  scores.reserve(3 * pixels);
-  double squares = 0;
-  std::size_t estimates = 0;
-  for (int c = 0; c < 3; ++c) {
-    double difference_sum = 0, variance_sum = 0;
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const double of_a = variance_a[c] != nullptr ? variance_a[c][i] : 0.0;
-      const double of_b = variance_b[c] != nullptr ? variance_b[c][i] : 0.0;
-      if (!(of_a >= 0 && of_a < kInfinity && of_b >= 0 && of_b < kInfinity)) continue;  // unknown: nothing to test
-      const double variance = of_a + of_b, difference = difference_of((*a[c])[i], (*b[c])[i]);
-      const double z = z_score(difference, variance);
-      scores.push_back(z);
-      difference_sum += difference;
-      variance_sum += variance;
-      if (variance > 0) {
-        squares += z * z;
-        ++estimates;
-      }
-    }
-    result.mean_z[c] = z_score(difference_sum, variance_sum);
-  }
-  if (scores.empty()) return std::nullopt;
-
-  // Sidak: each of n independent tests at this level rejects nothing with probability 1 - kSignificance in all.
-  const double level = -std::expm1(std::log1p(-kSignificance) / static_cast<double>(scores.size()));
-  const auto passed = std::ranges::count_if(
-      scores, [level](double z) { return std::erfc(std::abs(z) / std::numbers::sqrt2) >= level; });
-  result.passed_share = static_cast<double>(passed) / static_cast<double>(scores.size());
-  result.rms_z = estimates > 0 ? std::sqrt(squares / static_cast<double>(estimates)) : 0.0;
-  return result;
-}
-
 }  // namespace
 
 IoStatus compare(const Image& a, const Image& b, const CompareOptions& options, Comparison& result, Image* difference) {
@@ -163,20 +164,31 @@ IoStatus compare(const Image& a, const Image& b, const CompareOptions& options, 
   } catch (const MemoryExceeded& e) {
     return {std::string("comparing does not fit into memory: ") + e.what()};
   }
-  Planes planes_a, planes_b;
-  if (IoStatus status = find_colors(a, "the first", planes_a); !status) return status;
-  if (IoStatus status = find_colors(b, "the second", planes_b); !status) return status;
+  Picture picture_a, picture_b;
+  if (IoStatus status = find_colors(a, "the first", picture_a); !status) return status;
+  if (IoStatus status = find_colors(b, "the second", picture_b); !status) return status;
+  if (picture_a.is_luminance || picture_b.is_luminance) {
+    reduce_to_luminance(picture_a);
+    reduce_to_luminance(picture_b);
+  }
+  const Planes &planes_a = picture_a.colors, &planes_b = picture_b.colors;
 
   Comparison comparison;
   compare_radiance(planes_a, planes_b, comparison);
+  comparison.nan_a = count_nan(planes_a);
+  comparison.nan_b = count_nan(planes_b);
   const ToneMapper tone(options.tone);
   const DisplayImage display_a = display_image(a, planes_a, tone), display_b = display_image(b, planes_b, tone);
-  comparison.psnr = psnr(display_a, display_b);
   std::vector<float> flip = flip_map(display_b, display_a, options.pixels_per_degree);
-  double sum = 0;
-  for (const float value : flip) sum += value;
-  comparison.flip = sum / static_cast<double>(flip.size());
-  comparison.z_test = z_test(a, b, planes_a, planes_b);
+  if (comparison.nan_a + comparison.nan_b > 0) {
+    comparison.psnr = comparison.flip = std::numeric_limits<double>::quiet_NaN();
+  } else {
+    comparison.psnr = psnr(display_a, display_b);
+    double sum = 0;
+    for (const float value : flip) sum += value;
+    comparison.flip = sum / static_cast<double>(flip.size());
+  }
+  comparison.z_test = z_test(a.width, planes_a, planes_b, picture_a.variances, picture_b.variances);
 
   if (difference != nullptr) {
     Image image;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "color/srgb.h"
 #include "tests/statistics/statistical_test.h"
@@ -118,9 +120,54 @@ TEST(Compare, WhatIsNotFiniteShowsInTheLinearFigures) {
   EXPECT_EQ(compared(a, b).mse, 0);
   a.channels[0].values[5] = kNan;
   const Comparison result = compared(a, b);
-  EXPECT_TRUE(std::isnan(result.mse));
-  EXPECT_TRUE(std::isfinite(result.psnr));  // shown as black
-  EXPECT_GT(result.flip, 0);
+  for (const double figure : {result.mse, result.rel_mse, result.psnr, result.flip, result.mean_a}) {
+    EXPECT_TRUE(std::isnan(figure)) << figure;
+  }
+  EXPECT_EQ(result.nan_a, 1u);
+  EXPECT_EQ(result.nan_b, 0u);
+  EXPECT_TRUE(std::isnan(compared(b, a).psnr));
+  EXPECT_EQ(compared(b, a).nan_b, 1u);
+}
+
+/// What EXR files of `pixel_format` xyz and luminance hold.
+Image converted(const Image& image, std::vector<std::pair<const char*, ColorVector>> channels) {
+  Image result;
+  result.width = image.width;
+  result.height = image.height;
+  for (const auto& [name, weights] : channels) {
+    std::vector<float>& values = result.channel(name).values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      double sum = 0;
+      for (std::size_t c = 0; c < 3; ++c) sum += weights[c] * static_cast<double>(image.channels[c].values[i]);
+      values[i] = static_cast<float>(sum);
+    }
+  }
+  return result;
+}
+
+TEST(Compare, XyzAndLuminance) {
+  const Image a = noisy_image(20, 10, 1, 0.01f, 1), b = noisy_image(20, 10, 1, 0.01f, 2);
+  const auto xyz = [](const Image& image) {
+    return converted(image, {{"X", kXyzFromSrgb[0]}, {"Y", kXyzFromSrgb[1]}, {"Z", kXyzFromSrgb[2]}});
+  };
+  const auto luminance = [](const Image& image) { return converted(image, {{"A", {}}, {"Y", kXyzFromSrgb[1]}}); };
+  EXPECT_NEAR(compared(xyz(a), b).mse, compared(a, b).mse, 1e-6);
+  EXPECT_NEAR(compared(a, xyz(a)).mse, 0, 1e-12);
+  const Comparison grey = compared(luminance(a), luminance(b));
+  EXPECT_GT(grey.mse, 0.005);
+  // By luminance also if just one has nothing else.
+  EXPECT_NEAR(compared(luminance(a), b).mse, grey.mse, 1e-6);
+  EXPECT_NEAR(compared(a, luminance(b)).mse, grey.mse, 1e-6);
+  EXPECT_NEAR(compared(a, luminance(a)).mse, 0, 1e-12);
+}
+
+TEST(Compare, LuminanceHasTheVarianceOfItsColors) {
+  Image a = uniform_image(2, 1, 2, 2, 2), b = uniform_image(2, 1, 1, 1, 1);
+  set_variance(a, 0.25f);
+  const Image grey = converted(b, {{"Y", kXyzFromSrgb[1]}});
+  const auto test = compared(a, grey).z_test;
+  ASSERT_TRUE(test);
+  EXPECT_NEAR(test->rms_z, 2, 1e-6);
 }
 
 TEST(Compare, SaysWhatDiffers) {
@@ -132,10 +179,12 @@ TEST(Compare, SaysWhatDiffers) {
   Image grey;
   grey.width = 4;
   grey.height = 3;
-  EXPECT_EQ(compare(image, grey, {}, result).error, "the second image has no channel R; it has none");
-  grey.channel("Y");
+  EXPECT_EQ(compare(image, grey, {}, result).error,
+            "the second image has neither R, G, B nor X, Y, Z nor Y; it has none");
+  grey.channel("R");
   grey.channel("A");
-  EXPECT_EQ(compare(grey, image, {}, result).error, "the first image has no channel R; it has Y, A");
+  EXPECT_EQ(compare(grey, image, {}, result).error,
+            "the first image has neither R, G, B nor X, Y, Z nor Y; it has R, A");
   Image broken = image;
   broken.channels[1].values.clear();
   EXPECT_EQ(compare(image, broken, {}, result).error, "the second image: channel G does not have 4x3 pixels");
@@ -172,7 +221,37 @@ TEST(CompareZTest, ASmallBiasShowsInTheMeans) {
     EXPECT_TRUE(verdicts.agree({z, 1, 30'000}, -0.02 / std::sqrt(0.08 / 30'000), "mean of z"));
 }
 
-TEST(CompareZTest, OneSideWithoutVarianceIsTakenAsExact) {
+/// As many people have it: a quick image without layers against a good one with them.
+TEST(CompareZTest, WhatHasNoLayersIsNotTakenAsFreeOfNoise) {
+  const Image quick = noisy_image(200, 150, 1, 0.04f, 1);
+  Image good = noisy_image(200, 150, 1, 0.0004f, 2);
+  set_variance(good, 0.0004f);
+  using Estimated = Comparison::ZTest::Estimated;
+  const auto check = [](const Comparison& result, Estimated estimated) {
+    ASSERT_TRUE(result.z_test);
+    EXPECT_EQ(result.z_test->estimated, estimated);
+    EXPECT_EQ(result.z_test->passed_share, 1);
+    EXPECT_NEAR(result.z_test->rms_z, 0.85, 0.1) << "a little less than 1: noise is estimated generously";
+    for (const double z : result.z_test->mean_z) EXPECT_LT(std::abs(z), 3);
+  };
+  check(compared(quick, good), Estimated::a);
+  check(compared(good, quick), Estimated::b);
+  std::erase_if(good.channels, [](const Channel& channel) { return channel.name == "variance.B"; });
+  EXPECT_FALSE(compared(quick, good).z_test) << "a part of the layers is none";
+}
+
+/// Noise is estimated, and what is wrong all over is found in spite of it.
+TEST(CompareZTest, ABiasShowsBesideEstimatedNoise) {
+  Image a = noisy_image(200, 150, 1, 0.04f, 1);
+  Image b = noisy_image(200, 150, 1.02f, 0.0004f, 2);
+  set_variance(b, 0.0004f);
+  const auto test = compared(a, b).z_test;
+  ASSERT_TRUE(test);
+  for (const double z : test->mean_z) EXPECT_NEAR(z, -0.02 / std::sqrt(0.0404 / 30'000), 3.5);
+}
+
+/// A closed form without layers, say.
+TEST(CompareZTest, WhatDiffersEvenlyIsNoNoise) {
   Image a = uniform_image(2, 1, 1, 1, 1);
   set_variance(a, 0.25f);
   const auto test = compared(a, uniform_image(2, 1, 2, 1.5f, 1)).z_test;
@@ -202,6 +281,7 @@ TEST(CompareZTest, RejectsAtTheSidakLevel) {
 TEST(CompareZTest, WithoutAnyVarianceAPixelIsComparedExactly) {
   Image a = uniform_image(2, 1, 1, 1, 1), b = a;
   set_variance(a, 0.01f);
+  set_variance(b, 0);
   for (const char* name : {"variance.R", "variance.G", "variance.B"}) a.channel(name).values[0] = 0;
   const auto equal = compared(a, b).z_test;
   ASSERT_TRUE(equal);

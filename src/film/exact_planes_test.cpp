@@ -76,15 +76,19 @@ TEST(ExactSum, RoundsTo24BitsAsFloatsDo) {
 }
 
 TEST(SampleSet, CountsTheSamplesOfAReplicate) {
-  const auto counts = [](const SampleSet& set, std::uint32_t n) {
+  const auto counts = [](const SampleSet& set, std::uint32_t n, std::uint64_t pixel = 0) {
     std::vector<std::uint32_t> result;
-    for (std::uint32_t r = 0; r < kReplicates; ++r) result.push_back(set.count_of_replicate(n, r));
+    for (std::uint32_t r = 0; r < kReplicates; ++r) result.push_back(set.count_of_replicate(pixel, n, r));
     return result;
   };
   using Counts = std::vector<std::uint32_t>;
   EXPECT_EQ(counts(SampleSet(), 10), (Counts{3, 3, 2, 2}));
   EXPECT_EQ(counts(SampleSet({{3, 100}}), 6), (Counts{2, 1, 1, 2})) << "samples 3 to 8";
   EXPECT_EQ(counts(SampleSet({{0, 2}, {6, 7}, {9, 20}}), 5), (Counts{1, 2, 2, 0})) << "samples 0, 1, 6, 9, 10";
+  // Tiles of 2 x 2 in an image of 5 x 4: pixel 13, at (3, 2), is in the second tile of the second row.
+  const SampleSet unfinished({{0, 8}, {9, 20}}, {2, 2, 3, 5, {{8, 8, 8, 8, 3, 8}, {0, 0, 0, 0, 2, 0}}});
+  EXPECT_EQ(counts(unfinished, 5, 13), (Counts{1, 2, 2, 0})) << "samples 0, 1, 2, 9, 10";
+  EXPECT_EQ(counts(unfinished, 8, 0), (Counts{2, 2, 2, 2}));
 }
 
 }  // namespace

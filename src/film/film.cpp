@@ -157,7 +157,7 @@ PixelEstimate Film::estimate_samples(std::uint64_t pixel, int channel) const {
 
   double sums[kReplicates], counts[kReplicates];
   for (std::uint32_t r = 0; r < kReplicates; ++r)
-    sums[r] = sum(3 * r + c), counts[r] = samples_.count_of_replicate(n, r);
+    sums[r] = sum(3 * r + c), counts[r] = samples_.count_of_replicate(pixel, n, r);
   PixelEstimate estimate = estimate_from_replicates(sums, counts);
   // Which replicate lost how many is not known any more.
   if ((counts_[pixel] & kSomeDropped) != 0) estimate.known = false;

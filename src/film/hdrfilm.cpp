@@ -81,8 +81,8 @@ FilmSettings compile_film_hdrfilm(Parameters& p, Builder& builder) {
   std::tie(film.crop_y, film.height) = read_crop(p, "crop_offset_y", "crop_height", film.full_height);
   film.sample_border = read_sample_border(p);
   if (read_format<bool>(p, "file_format", kFileFormats)) {
-    p.diagnostics().note(p.where("file_format"), "'file_format' has no effect here",
-                         "-o FILE.exr, FILE.png or FILE.jpg");
+    p.diagnostics().note(p.where("file_format"),
+                         "'file_format' has no effect here (instead: -o FILE.exr, FILE.png or FILE.jpg)");
   }
   film.pixel_format = read_format<PixelFormat>(p, "pixel_format", kPixelFormats);
   const Component component = read_format<Component>(p, "component_format", kComponentFormats);

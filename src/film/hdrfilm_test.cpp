@@ -156,7 +156,7 @@ TEST(Hdrfilm, TakesTheFormatsThatAreWritten) {
                           "luminance_alpha]"));
   for (const char* format : {"pfm", "RGBE"}) {
     EXPECT_THAT(compile_film(kBox + text("file_format", format)).messages(),
-                ElementsAre("note: 'file_format' has no effect here [-o FILE.exr, FILE.png or FILE.jpg]"));
+                ElementsAre("note: 'file_format' has no effect here (instead: -o FILE.exr, FILE.png or FILE.jpg)"));
   }
   EXPECT_THAT(compile_film(kBox + text("file_format", "png")).messages(),
               ElementsAre("error: file_format 'png' is not supported [openexr, exr, rgbe, pfm]"));

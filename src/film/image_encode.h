@@ -32,5 +32,6 @@ std::string encode_jpeg(AtomicFile& file, const ByteImage& image);
 
 inline constexpr int kLargestPngSide = 1'000'000;  ///< what libpng accepts when it reads
 inline constexpr int kLargestJpegSide = 65'500;    ///< JPEG_MAX_DIMENSION
+inline constexpr int kLargestExrSide = 1 << 30;    ///< half of the numbers that its windows have
 
 }  // namespace norrsken

@@ -18,6 +18,25 @@ constexpr struct {
   Format format;
 } kFormats[] = {{".exr", Format::exr}, {".png", Format::png}, {".jpg", Format::jpeg}, {".jpeg", Format::jpeg}};
 
+int largest_side(Format format) {
+  switch (format) {
+    case Format::png:
+      return kLargestPngSide;
+    case Format::jpeg:
+      return kLargestJpegSide;
+    case Format::exr:
+      break;
+  }
+  return kLargestExrSide;
+}
+
+/// What is wrong with the size for the format, or nothing.
+std::string complaint_about_size(int width, int height, Format format) {
+  if (std::max(width, height) <= largest_side(format)) return {};
+  return "the image has " + std::to_string(width) + "x" + std::to_string(height) + " pixels, the format takes " +
+         std::to_string(largest_side(format)) + " along a side";
+}
+
 IoStatus find_format(const std::string& path, Format& format) {
   const std::string extension = std::filesystem::path(path).extension().string();
   std::string accepted;
@@ -49,11 +68,7 @@ std::string complaint_about(const Image& image) {
 }
 
 /// The tone-mapped bytes of R, G and B, or what is missing.
-std::string to_bytes(const Image& image, const ToneMapping& tone, int largest_side, ByteImage& bytes) {
-  if (std::max(image.width, image.height) > largest_side) {
-    return "the image has " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-           " pixels, the format takes " + std::to_string(largest_side) + " along a side";
-  }
+std::string to_bytes(const Image& image, const ToneMapping& tone, ByteImage& bytes) {
   bytes.width = image.width;
   bytes.height = image.height;
   bytes.pixels.resize(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
@@ -76,11 +91,12 @@ IoStatus write_image(const std::string& path, const Image& image, const ToneMapp
   Format format{};
   if (IoStatus status = find_format(path, format); !status) return status;
   if (const std::string complaint = complaint_about(image); !complaint.empty()) return write_failure(path, complaint);
+  const std::string too_large = complaint_about_size(image.width, image.height, format);
+  if (!too_large.empty()) return write_failure(path, too_large);
 
   ByteImage bytes;
   if (format != Format::exr) {
-    const int largest_side = format == Format::png ? kLargestPngSide : kLargestJpegSide;
-    const std::string complaint = to_bytes(image, tone, largest_side, bytes);
+    const std::string complaint = to_bytes(image, tone, bytes);
     if (!complaint.empty()) return write_failure(path, complaint);
   }
 
@@ -106,6 +122,13 @@ IoStatus write_image(const std::string& path, const Image& image, const ToneMapp
 IoStatus check_image_name(const std::string& path) {
   Format format{};
   return find_format(path, format);
+}
+
+IoStatus check_image_size(const std::string& path, int width, int height) {
+  Format format{};
+  if (IoStatus status = find_format(path, format); !status) return status;
+  const std::string too_large = complaint_about_size(width, height, format);
+  return too_large.empty() ? IoStatus{} : write_failure(path, too_large);
 }
 
 IoStatus check_writable(const std::string& path) {

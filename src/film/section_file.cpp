@@ -1,7 +1,6 @@
 #include "film/section_file.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 
 #include "base/checksum.h"
 #include "base/regular_file.h"
+#include "film/file_lock.h"
 #include "film/image_file.h"
 
 namespace norrsken {
@@ -94,32 +94,16 @@ bool write_contents(int file, std::uint32_t version, std::span<const Section> se
   return true;
 }
 
-/// Opens the temporary file for this process alone, and says in `errno` why not.
+/// Says in `errno` why not.
 int open_temporary(const std::string& path) {
-  const std::string temporary = temporary_of(path);
-  for (int attempt = 0; attempt < 100; ++attempt) {
-    const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
-    if (file < 0) return -1;
-    int error = 0;
-    if (flock(file, LOCK_EX | LOCK_NB) != 0) error = errno;
-    // Another process may have given the file its name between opening and locking it: then it is not ours.
-    struct stat ours {
-    }, there{};
-    const bool same = error == 0 && fstat(file, &ours) == 0 && stat(temporary.c_str(), &there) == 0 &&
-                      ours.st_ino == there.st_ino && ours.st_dev == there.st_dev;
-    if (same && S_ISREG(ours.st_mode) && ftruncate(file, 0) == 0) return file;
-    if (same && error == 0) error = S_ISREG(ours.st_mode) ? errno : EEXIST;
-    close(file);
-    if (error == 0) continue;
-    errno = error;
-    return -1;
-  }
-  errno = EWOULDBLOCK;
+  // What a killed writing has left is written over.
+  const int file =
+      open(temporary_of(path).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+  struct stat status {};
+  if (file < 0 || (fstat(file, &status) == 0 && S_ISREG(status.st_mode))) return file;
+  close(file);
+  errno = EEXIST;
   return -1;
-}
-
-IoStatus open_failure(const std::string& path, int error) {
-  return write_failure(path, error == EWOULDBLOCK ? "another process is writing it" : error_text(error));
 }
 
 IoStatus check_target(const std::string& path) {
@@ -157,7 +141,7 @@ IoStatus write_sections(const std::string& path, std::uint32_t version, std::spa
                         OlderGeneration older) {
   if (IoStatus status = check_target(path); !status) return status;
   FileDescriptor file(open_temporary(path));
-  if (file.get() < 0) return open_failure(path, errno);
+  if (!file) return write_failure(path, error_text(errno));
   const bool written = write_contents(file.get(), version, sections) && fsync(file.get()) == 0;
   if (written && take_name(path, older) && file.close() && sync_folder(path)) return {};
   const int error = errno;
@@ -167,10 +151,19 @@ IoStatus write_sections(const std::string& path, std::uint32_t version, std::spa
 
 IoStatus check_sections_writable(const std::string& path) {
   if (IoStatus status = check_target(path); !status) return status;
-  const FileDescriptor file(open_temporary(path));
-  if (file.get() < 0) return open_failure(path, errno);
-  unlink(temporary_of(path).c_str());
-  return {};
+  struct stat status {};
+  if (lstat(temporary_of(path).c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    return write_failure(path, "'" + temporary_of(path) + "' is in the way");
+  return FileLock(path).status();
+}
+
+SectionFileIdentity identity_of(const std::string& path, std::uint32_t version) {
+  const SectionReader reader(path, version);
+  return {reader.state(), reader.heads_checksum()};
+}
+
+std::vector<std::string> files_of_sections(const std::string& path) {
+  return {path, older_generation_of(path), temporary_of(path), lock_of(path)};
 }
 
 SectionReader::SectionReader(const std::string& path, std::uint32_t version) {
@@ -228,6 +221,7 @@ bool SectionReader::read_heads(std::uint32_t version) {
     before = section.checksum;
   }
   if (at != file_bytes_) return fail(State::damaged, "goes on behind its last section");
+  heads_checksum_ = before;
   return true;
 }
 

@@ -35,12 +35,16 @@ enum class OlderGeneration { keep, replace };
 std::string older_generation_of(const std::string& path);
 
 /// Writes to `path`.tmp, waits for the disk, gives the file its name, and waits for the folder. On an error both
-/// generations stay as they are. A second process that writes the same file is refused.
+/// generations stay as they are. One process at a time: whoever writes holds the FileLock of `path`.
 IoStatus write_sections(const std::string& path, std::uint32_t version, std::span<const Section> sections,
                         OlderGeneration older);
 
-/// Whether that is likely to succeed: the folder can be written to, and nothing but a file has the name.
+/// Whether that is likely to succeed: the folder can be written to, nothing but a file has the name, and nobody else
+/// has the lock.
 IoStatus check_sections_writable(const std::string& path);
+
+/// All that writing `path` may replace or remove.
+std::vector<std::string> files_of_sections(const std::string& path);
 
 class SectionReader {
  public:
@@ -60,6 +64,9 @@ class SectionReader {
   /// What is wrong, to follow the file's name.
   const std::string& complaint() const { return complaint_; }
   std::uint64_t file_bytes() const { return file_bytes_; }
+  /// Of all heads, the checksums of the contents among them: files of other contents have another one. 0 if it is not
+  /// readable.
+  std::uint64_t heads_checksum() const { return heads_checksum_; }
 
   /// Reads the next section, if it has this name, into memory of its size. False, and damaged, if anything is wrong.
   bool read(std::string_view name, std::span<std::byte> content);
@@ -83,11 +90,20 @@ class SectionReader {
   bool read_heads(std::uint32_t version);
 
   std::unique_ptr<std::FILE, Close> file_;
-  std::uint64_t file_bytes_ = 0;
+  std::uint64_t file_bytes_ = 0, heads_checksum_ = 0;
   std::vector<Entry> entries_;
   std::size_t next_ = 0;
   State state_ = State::readable;
   std::string complaint_;
 };
+
+/// What is at a path, told from what may come to be there later.
+struct SectionFileIdentity {
+  SectionReader::State state = SectionReader::State::missing;
+  std::uint64_t heads_checksum = 0;
+
+  friend bool operator==(const SectionFileIdentity&, const SectionFileIdentity&) = default;
+};
+SectionFileIdentity identity_of(const std::string& path, std::uint32_t version);
 
 }  // namespace norrsken

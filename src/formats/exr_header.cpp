@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 
+#include "base/text.h"
 #include "formats/bytes.h"
 
 namespace norrsken {
@@ -141,6 +143,41 @@ bool exr_header_fits(std::string_view file) {
     if (block.bytes() > most_at_once) return false;
   }
   return false;
+}
+
+std::optional<ImageHeader> read_exr_header(std::string_view begin) {
+  Bytes bytes(begin);
+  const auto magic = bytes.take<std::int32_t>(), version = bytes.take<std::int32_t>();
+  if (!magic || !version) return std::nullopt;
+  ImageHeader header;
+  header.format = "EXR";
+  while (!bytes.empty()) {
+    const auto name = bytes.take_word();
+    if (!name) return std::nullopt;
+    if (name->empty()) return header.width > 0 && header.height > 0 ? std::optional(header) : std::nullopt;
+    const auto type = bytes.take_word();
+    const auto size = bytes.take<std::int32_t>();
+    if (!type || !size || *size < 0) return std::nullopt;
+    const auto text = bytes.take(static_cast<std::size_t>(*size));
+    if (!text || !fits(*type, *text)) return std::nullopt;
+    Bytes value(*text);
+    if (*type == "string") {
+      header.metadata[printable(*name)] = printable(*text);
+    } else if (*name == "channels" && *type == "chlist") {
+      for (auto channel = value.take_word(); channel && !channel->empty(); channel = value.take_word()) {
+        header.channels.push_back(printable(*channel));
+        value.take(16);
+      }
+    } else if (*name == "dataWindow" && *type == "box2i") {
+      std::int64_t sides[4];
+      for (std::int64_t& side : sides) side = value.take<std::int32_t>().value_or(0);
+      const std::int64_t width = sides[2] - sides[0] + 1, height = sides[3] - sides[1] + 1;
+      constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+      if (width < 1 || height < 1 || width > kMost || height > kMost) return std::nullopt;
+      header.width = static_cast<int>(width), header.height = static_cast<int>(height);
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace norrsken

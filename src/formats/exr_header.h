@@ -1,7 +1,10 @@
 // What has to be true of an OpenEXR file before its library may look at it.
 #pragma once
 
+#include <optional>
 #include <string_view>
+
+#include "norrsken/image.h"
 
 namespace norrsken {
 
@@ -12,5 +15,9 @@ namespace norrsken {
 /// allocates when it opens the file (a tile, or up to 256 rows, there or not), is more than 64 MiB and more than deflate
 /// could make of the file.
 bool exr_header_fits(std::string_view file);
+
+/// What the first header says, if it is whole in these bytes, the first of a file: size, channels, and attributes that
+/// are texts.
+std::optional<ImageHeader> read_exr_header(std::string_view begin);
 
 }  // namespace norrsken

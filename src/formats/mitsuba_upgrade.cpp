@@ -66,12 +66,24 @@ std::string MitsubaUpgrade::parameter(const Literal& name) {
 }
 
 void MitsubaUpgrade::add(std::shared_ptr<Node> node) {
-  if (version.is_old()) nodes_.push_back({std::move(node), version});
+  if (!version.is_old()) return;
+  const Node* const key = node.get();
+  order_.push_back(key);
+  old_nodes_.emplace(key, OldNode{std::move(node), version});
 }
 
 void MitsubaUpgrade::finish() {
-  // Children before their parents, who may take them apart.
-  for (auto old = nodes_.rbegin(); old != nodes_.rend(); ++old) upgrade(*old->node, old->version);
+  for (const Node* node : order_) upgrade_with_children(node);
+}
+
+// Children come before their parents, who may take them apart. References lead to few levels (see `References`).
+void MitsubaUpgrade::upgrade_with_children(const Node* node) {
+  const auto found = old_nodes_.find(node);
+  if (found == old_nodes_.end()) return;
+  const OldNode old = std::move(found->second);
+  old_nodes_.erase(found);
+  for (const Node::Child& child : old.node->children) upgrade_with_children(child.node.get());
+  upgrade(*old.node, old.version);
 }
 
 std::vector<SceneChange> MitsubaUpgrade::take_changes() {
@@ -223,12 +235,11 @@ void MitsubaUpgrade::upgrade_emitter(Node& node) {
 }
 
 void MitsubaUpgrade::upgrade_shape(Node& node) {
-  const bool has_material =
-      !children_of_kind(node, "bsdf").empty() || !children_of_kind(node, "emitter").empty() ||
-      std::ranges::any_of(node.children, [](const Node::Child& child) { return child.node == nullptr; });
-  if (node.plugin == "obj" && !has_material)
-    warn(node.plugin_location,
-         "a shape 'obj' without a bsdf is grey; Mitsuba 0.6 takes the materials of the .mtl file that it may name");
+  const bool has_material = !children_of_kind(node, "bsdf").empty() || !children_of_kind(node, "emitter").empty();
+  if (node.plugin != "obj" || has_material || told_of_materials_) return;
+  told_of_materials_ = true;
+  warn(node.plugin_location,
+       "a shape 'obj' without a bsdf is grey; Mitsuba 0.6 takes the materials of the .mtl file that it may name");
 }
 
 }  // namespace norrsken

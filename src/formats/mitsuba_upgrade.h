@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "formats/mitsuba_element.h"
@@ -43,16 +44,12 @@ class MitsubaUpgrade {
   std::vector<SceneChange> take_changes();
 
  private:
-  struct OldNode {
-    std::shared_ptr<Node> node;
-    SceneVersion version;
-  };
-
   void note(const SourceLocation& location, std::string text);
   /// Notes a change that the image shows, and warns of it.
   void warn(const SourceLocation& location, std::string text);
 
   void upgrade(Node& node, SceneVersion version);
+  void upgrade_with_children(const Node* node);
   void rename_parameters(Node& node, SceneVersion version);
   void leave_out_parameters(Node& node);
   void rename_plugin(Node& node, SceneVersion version);
@@ -68,9 +65,14 @@ class MitsubaUpgrade {
   void upgrade_emitter(Node& node);
   void upgrade_shape(Node& node);
 
-  std::vector<OldNode> nodes_;
+  struct OldNode {
+    std::shared_ptr<Node> node;
+    SceneVersion version;
+  };
+  std::vector<const Node*> order_;                      ///< in which they were added
+  std::unordered_map<const Node*, OldNode> old_nodes_;  ///< that are still to be upgraded
   std::vector<SceneChange> changes_;
-  bool told_of_white_ = false;
+  bool told_of_white_ = false, told_of_materials_ = false;
   Diagnostics& diagnostics_;
 };
 

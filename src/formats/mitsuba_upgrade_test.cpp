@@ -5,8 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "formats/reader_testing.h"
 
 namespace norrsken {
@@ -15,45 +13,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-std::string text_of(const Property& property) {
-  struct Visitor {
-    std::string operator()(bool value) const { return value ? "true" : "false"; }
-    std::string operator()(std::int64_t value) const { return std::to_string(value); }
-    std::string operator()(double value) const { return fmt::format("{:.9g}", value); }
-    std::string operator()(const std::string& value) const { return value; }
-    std::string operator()(const Property::Rgb& rgb) const {
-      return fmt::format("rgb {:.6g} {:.6g} {:.6g}", rgb.value.x, rgb.value.y, rgb.value.z);
-    }
-    std::string operator()(const Property::Spectrum& spectrum) const {
-      std::string text = "spectrum";
-      for (const auto& [wavelength, value] : spectrum.samples) text += fmt::format(" {:g}:{:.6g}", wavelength, value);
-      return text;
-    }
-    std::string operator()(const Property::Vector& v) const {
-      return fmt::format("{:g} {:g} {:g}", v.value.x, v.value.y, v.value.z);
-    }
-    std::string operator()(const Property::Transform& m) const {
-      std::string text = "matrix";
-      for (int row = 0; row < 4; ++row) {
-        // Adding 0 takes the sign from zeros.
-        for (int column = 0; column < 4; ++column) text += fmt::format(" {:.6g}", m[column][row] + 0.0);
-      }
-      return text;
-    }
-  };
-  return property.name + " = " + std::visit(Visitor{}, property.value);
-}
-
-std::string text_of(const Node& node, const std::string& name, const std::string& indent) {
-  std::string text = fmt::format("{}{} {} '{}'\n", indent, node.kind, node.plugin, name);
-  std::vector<std::string> lines;
-  for (const Property& property : node.properties) lines.push_back(text_of(property));
-  std::ranges::sort(lines);
-  for (const std::string& line : lines) text += indent + "  " + line + "\n";
-  for (const Node::Child& child : node.children) text += text_of(*child.node, child.name, indent + "  ");
-  return text;
-}
 
 struct Upgraded {
   std::string description, complaints;
@@ -67,7 +26,7 @@ Upgraded read(const std::string& version, const std::string& body) {
   Upgraded result;
   result.complaints = to_text(diagnostics);
   if (!description) return result;
-  result.description = text_of(*description->scene, {}, {});
+  result.description = text_of(*description->scene);
   for (const SceneChange& change : description->changes)
     result.changes.push_back(place_text(change.location) + ": " + change.text);
   return result;
@@ -325,6 +284,14 @@ TEST(MitsubaUpgrade, Integrators) {
         R"(<integrator type="path"><integer name="max_depth" value="3"/></integrator>)",
         fmt::format("integrator '{}' is the 'path' inside of it", plugin));
   }
+  // Whatever is inside, and wherever it stands.
+  expect_same_but(
+      "0.6.0",
+      R"(<integrator type="bdpt" id="b"><integer name="maxDepth" value="3"/><string name="x" value="y"/></integrator>
+                              <integrator type="adaptive"><integrator type="irrcache"><ref id="b"/></integrator></integrator>)",
+      R"(<integrator type="path" id="b"><integer name="max_depth" value="3"/></integrator>
+                     <integrator type="path"><integer name="max_depth" value="3"/></integrator>)",
+      "integrator 'adaptive' is the 'path' inside of it");
   expect_same("0.6.0", R"(<integrator type="path"><boolean name="strictNormals" value="false"/></integrator>)",
               R"(<integrator type="path"/>)");
   expect_same_but("0.6.0", R"(<integrator type="path"><boolean name="strictNormals" value="true"/></integrator>)",

@@ -3,8 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
 
 #include "base/text.h"
+#include "formats/mesh_readers.h"
 
 namespace norrsken {
 namespace {
@@ -67,7 +73,24 @@ std::string in_xml(std::string_view text) {
   return result;
 }
 
-std::string scene_around(std::string_view path, std::string_view plugin) {
+// The step that brings a mesh into the unit sphere about the origin, where the camera of `scene_around` looks; empty if
+// the mesh cannot be read.
+std::string into_view(const std::optional<MeshData>& mesh) {
+  if (!mesh || mesh->positions.empty()) return {};
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+  for (const auto& p : mesh->positions) {
+    low = glm::min(low, glm::dvec3(p[0], p[1], p[2]));
+    high = glm::max(high, glm::dvec3(p[0], p[1], p[2]));
+  }
+  const glm::dvec3 shift = -0.5 * (low + high);
+  const double radius = 0.5 * glm::length(high - low);
+  if (!(radius > 0) || !std::isfinite(radius)) return {};
+  return fmt::format(
+      "<transform name=\"to_world\"><translate value=\"{:.5g} {:.5g} {:.5g}\"/><scale value=\"{:.4g}\"/></transform>",
+      shift.x + 0.0, shift.y + 0.0, shift.z + 0.0, 1 / radius);
+}
+
+std::string scene_around(std::string_view path, std::string_view plugin, const std::optional<MeshData>& mesh) {
   return fmt::format(
       "a scene that has the mesh, such as this one beside it\n"
       "<scene version=\"3.0.0\">\n"
@@ -75,9 +98,9 @@ std::string scene_around(std::string_view path, std::string_view plugin) {
       "0\"/>"
       "</transform></sensor>\n"
       "  <emitter type=\"constant\"/>\n"
-      "  <shape type=\"{}\"><string name=\"filename\" value=\"{}\"/></shape>\n"
+      "  <shape type=\"{}\"><string name=\"filename\" value=\"{}\"/>{}</shape>\n"
       "</scene>",
-      plugin, in_xml(file_name(path)));
+      plugin, in_xml(file_name(path)), into_view(mesh));
 }
 
 // Whether one of the first lines begins with one of the words and a blank.
@@ -109,9 +132,11 @@ std::optional<OtherFile> recognise_other_file(const std::string& path, std::stri
   for (const Signature& signature : kSignatures) {
     if (bytes.starts_with(signature.start)) return is(signature.what, signature.accepted);
   }
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return is("a PLY mesh", scene_around(path, "ply"));
+  Diagnostics unheard;  // of a mesh that is damaged; whoever names it in a scene will hear of that
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r"))
+    return is("a PLY mesh", scene_around(path, "ply", read_ply(bytes, path, unheard)));
   if (has_extension(path, ".serialized") && bytes.starts_with("\x1c\x04"))
-    return is("a mesh file of Mitsuba", scene_around(path, "serialized"));
+    return is("a mesh file of Mitsuba", scene_around(path, "serialized", read_serialized(bytes, 0, path, unheard)));
 
   std::string_view text = trim(bytes.substr(0, 1 << 16));
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -136,7 +161,8 @@ std::optional<OtherFile> recognise_other_file(const std::string& path, std::stri
   if (has_extension(path, ".stl") || text.starts_with("solid "))
     return is("an STL mesh", "a scene; save the mesh as PLY or OBJ for it");
   if (has_line(text, {"newmtl"})) return is("a material library of an OBJ mesh", "a scene of Mitsuba's XML");
-  if (has_line(text, {"v", "vn", "vt", "f", "mtllib"})) return is("a Wavefront OBJ mesh", scene_around(path, "obj"));
+  if (has_line(text, {"v", "vn", "vt", "f", "mtllib"}))
+    return is("a Wavefront OBJ mesh", scene_around(path, "obj", read_obj(bytes, path, unheard)));
   return std::nullopt;
 }
 

@@ -60,14 +60,16 @@ TEST(OtherFiles, WhatMayBeASceneIsLeftToTheReader) {
 
 TEST(OtherFiles, OfAMeshThereIsASceneThatShowsIt) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(read_scene("v 1 2 3\n", {}, diagnostics));
+  EXPECT_FALSE(read_scene("v 1 2 0\nv 5 2 0\nv 1 5 0\nf 1 2 3\n", {}, diagnostics));
   EXPECT_EQ(to_text(diagnostics), R"(room.xml: error: 'room.xml' is a Wavefront OBJ mesh, not a scene
 accepted: a scene that has the mesh, such as this one beside it
     <scene version="3.0.0">
       <sensor type="perspective"><transform name="to_world"><lookat origin="3 2 4" target="0 0 0" up="0 1 0"/></transform></sensor>
       <emitter type="constant"/>
-      <shape type="obj"><string name="filename" value="room.xml"/></shape>
+      <shape type="obj"><string name="filename" value="room.xml"/><transform name="to_world"><translate value="-3 -3.5 0"/><scale value="0.4"/></transform></shape>
     </scene>)");
+  // What cannot be read has no bounds.
+  EXPECT_THAT(recognise_other_file("a.obj", "v 1 2 3\nf 1 2 3\n")->accepted, HasSubstr("value=\"a.obj\"/></shape>"));
   EXPECT_THAT(recognise_other_file("a&\"<.ply", "ply\n")->accepted, HasSubstr("value=\"a&amp;&quot;&lt;.ply\""));
   EXPECT_EQ(complaints_about(TestFiles{{"room.xml", R"(<scene version="3.0.0"><include filename="a.ply"/></scene>)"},
                                        {"a.ply", "ply\n"}})

@@ -6,7 +6,10 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <map>
 
+#include "base/text.h"
 #include "formats/image_size.h"
 #include "formats/raster_image.h"
 
@@ -57,6 +60,24 @@ void read_header(Job& job) {
   job.channels = (is_palette ? 3 : png_get_channels(job.png, job.info)) + (has_alpha_key ? 1 : 0);
 }
 
+/// Reads what stands before the pixels of these contents. Empty, or what is wrong.
+std::string open(Job& job, std::string_view contents) {
+  job.left = contents;
+  job.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
+  if (job.png != nullptr) job.info = png_create_info_struct(job.png);
+  if (job.info == nullptr) return "not enough memory";
+  read_header(job);
+  return job.error;
+}
+
+std::map<std::string, std::string> texts_of(const Job& job) {
+  std::map<std::string, std::string> result;
+  png_textp texts = nullptr;
+  const int count = png_get_text(job.png, job.info, &texts, nullptr);
+  for (int i = 0; i < count; ++i) result[texts[i].key] = texts[i].text;
+  return result;
+}
+
 /// Asks for the pixels as 8 or 16 bits without palettes, for which libpng allocates rows. As above.
 void begin_pixels(Job& job) {
   if (setjmp(png_jmpbuf(job.png))) return;
@@ -100,14 +121,24 @@ bool is_linear(const Job& job) {
 
 bool is_png(std::string_view contents) { return contents.starts_with("\x89PNG\r\n\x1a\n"); }
 
+std::string read_png_header(std::string_view begin, ImageHeader& header) {
+  Job job;
+  if (std::string error = open(job, begin); !error.empty()) return error;
+  constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
+  if (job.width < 1 || job.height < 1 || job.width > kMost || job.height > kMost) return "its size is wrong";
+  header.format = "PNG";
+  header.width = static_cast<int>(job.width);
+  header.height = static_cast<int>(job.height);
+  constexpr const char* kChannels[4][4] = {{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
+  const auto channels = static_cast<std::size_t>(std::clamp(job.channels, 1, 4));
+  header.channels.assign(kChannels[channels - 1], kChannels[channels - 1] + channels);
+  for (const auto& [name, text] : texts_of(job)) header.metadata[printable(name)] = printable(text);
+  return {};
+}
+
 std::string read_png(std::string_view contents, RasterImage& image) {
   Job job;
-  job.left = contents;
-  job.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
-  if (job.png != nullptr) job.info = png_create_info_struct(job.png);
-  if (job.info == nullptr) return "not enough memory";
-  read_header(job);
-  if (!job.error.empty()) return job.error;
+  if (std::string error = open(job, contents); !error.empty()) return error;
   const std::uint64_t pixels = std::uint64_t{job.width} * job.height;
   if (!may_hold(pixels, contents.size())) return does_not_fit(job.width, job.height, contents.size());
   if (pixels > kMostImageValues / job.channels) {
@@ -121,9 +152,7 @@ std::string read_png(std::string_view contents, RasterImage& image) {
   image.height = static_cast<int>(job.height);
   image.channels = job.channels;
   image.is_linear = is_linear(job);
-  png_textp texts = nullptr;
-  const int count = png_get_text(job.png, job.info, &texts, nullptr);
-  for (int i = 0; i < count; ++i) image.metadata[texts[i].key] = texts[i].text;
+  image.metadata = texts_of(job);
   if (job.bits == 16) {
     read_rows(job, image.words);
   } else {

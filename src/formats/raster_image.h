@@ -43,6 +43,8 @@ std::string read_png(std::string_view contents, RasterImage& image);
 /// Radiance: flat, and both kinds of runs; RGBE and XYZE; rows and columns in any of the eight orders. What EXPOSURE, GAMMA and
 /// other lines say is not heeded, as in Mitsuba. Ward, "Radiance File Formats", section "Picture File Format (.hdr)".
 std::string read_radiance(std::string_view contents, RasterImage& image);
+/// Its size, channels and texts before the pixels, from the first bytes of a file.
+std::string read_png_header(std::string_view begin, ImageHeader& header);
 /// TGA: grey, colour and palettes, also run-length encoded. Truevision, "TGA File Format Specification", version 2.0, 1991;
 /// what it calls extension and developer areas is not looked at.
 std::string read_targa(std::string_view contents, RasterImage& image);

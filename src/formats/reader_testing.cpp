@@ -1,6 +1,54 @@
 #include "formats/reader_testing.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace norrsken {
+namespace {
+
+std::string text_of(const Property& property) {
+  struct Visitor {
+    std::string operator()(bool value) const { return value ? "true" : "false"; }
+    std::string operator()(std::int64_t value) const { return std::to_string(value); }
+    std::string operator()(double value) const { return fmt::format("{:.9g}", value); }
+    std::string operator()(const std::string& value) const { return value; }
+    std::string operator()(const Property::Rgb& rgb) const {
+      return fmt::format("rgb {:.6g} {:.6g} {:.6g}", rgb.value.x, rgb.value.y, rgb.value.z);
+    }
+    std::string operator()(const Property::Spectrum& spectrum) const {
+      std::string text = "spectrum";
+      for (const auto& [wavelength, value] : spectrum.samples) text += fmt::format(" {:g}:{:.6g}", wavelength, value);
+      return text;
+    }
+    std::string operator()(const Property::Vector& v) const {
+      return fmt::format("{:g} {:g} {:g}", v.value.x, v.value.y, v.value.z);
+    }
+    std::string operator()(const Property::Transform& m) const {
+      std::string text = "matrix";
+      for (int row = 0; row < 4; ++row) {
+        // Adding 0 takes the sign from zeros.
+        for (int column = 0; column < 4; ++column) text += fmt::format(" {:.6g}", m[column][row] + 0.0);
+      }
+      return text;
+    }
+  };
+  return property.name + " = " + std::visit(Visitor{}, property.value);
+}
+
+std::string text_of(const Node& node, const std::string& name, const std::string& indent) {
+  std::string text = fmt::format("{}{} {} '{}'\n", indent, node.kind, node.plugin, name);
+  std::vector<std::string> lines;
+  for (const Property& property : node.properties) lines.push_back(text_of(property));
+  std::ranges::sort(lines);
+  for (const std::string& line : lines) text += indent + "  " + line + "\n";
+  for (const Node::Child& child : node.children) text += text_of(*child.node, child.name, indent + "  ");
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const Node& node) { return text_of(node, {}, {}); }
 
 // Tests know no built-in files.
 std::vector<std::pair<std::string_view, std::string_view>> builtin_files() { return {}; }

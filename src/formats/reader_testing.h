@@ -20,6 +20,9 @@ std::optional<Description> read_scene(const TestFiles& files, const TestParamete
 std::optional<Description> read_scene(const std::string& xml, const TestParameters& parameters,
                                       Diagnostics& diagnostics);
 
+/// Kinds, plugins, values and children, without places and ids: scenes that mean the same have the same text.
+std::string text_of(const Node& node);
+
 /// All complaints, as a person reads them, one after the other.
 std::string complaints_about(const TestFiles& files, const TestParameters& parameters = {});
 std::string complaints_about(const std::string& xml, const TestParameters& parameters = {});

@@ -245,6 +245,14 @@ TEST(VolumeIntegrators, ArePathWithoutMedia) {
               ::testing::Contains("error: medium 'homogeneous' is not supported yet [a scene without medium]"));
 }
 
+TEST(VolumeIntegrators, AreNothingForACameraInAMedium) {
+  EXPECT_THAT(
+      compile_elements(integrator("volpath", "") +
+                       R"(<sensor type="perspective"><medium type="homogeneous"/></sensor>)" + kShape + kEmitter)
+          .messages(),
+      ::testing::Contains("error: medium 'homogeneous' is not supported yet [a scene without medium]"));
+}
+
 TEST(IntegratorHost, RefusesOthers) {
   EXPECT_THAT(compile_integrator(integrator("prb", "")).messages(),
               ElementsAre("error: integrator 'prb' is not supported yet [aov, depth, direct, moment, path, ptracer, "
@@ -271,7 +279,7 @@ TEST(IntegratorHost, TheCommandLinesReplacementMustExist) {
   options.integrator = "wited";
   const Compiled c = compile_integrator(integrator("path", ""), options);
   EXPECT_THAT(c.messages(), ElementsAre("error: unknown integrator 'wited', did you mean 'whitted'? [aov, depth, "
-                                        "direct, moment, path, ptracer, whitted]"));
+                                        "direct, moment, path, ptracer, volpath, volpathmis, whitted]"));
   EXPECT_EQ(c.diagnostics.all().at(0).location.line, 0);
 }
 

@@ -4,7 +4,8 @@
 //   filename          string (required): PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR, at least 2 x 3 pixels
 //   scale             number, at least 0 (default 1): factor on the image's radiance
 //   to_world          transform that keeps shapes (default identity). The local y axis is up, where the image's first
-//                     row is; its middle column is at -z, and columns to the right of it are towards +x
+//                     row is; its first and last column are at -z, its middle one is at +z, and columns to
+//                     the left of the middle are towards +x
 //   mis_compensation  boolean (default false): light sampling leaves what is darker than the mean to the directions that
 //                     surfaces sample, which can reduce noise; of effect only where both compete (path, and direct with
 //                     samples of both)

@@ -4,6 +4,8 @@
 //   sampling_weight  number, at least 0 (default 1): factor on how often the emitter is chosen when light is sampled. With
 //                    0 it never is: surfaces and environments are then found by rays alone, and what no ray finds is lost,
 //                    with a warning. Not all may be 0
+// Emitters that have no surface and do not surround the scene may stand in a shape as well as outside: it makes no
+// difference to them, and the shape is black if it names no bsdf.
 #pragma once
 
 #include <glm/mat3x3.hpp>

@@ -99,6 +99,8 @@ inline PickedLight pick_light_by_place(const SceneView& scene, Vec3f reference, 
   constexpr std::size_t kContent = offsetof(LightNode, content);
   UInt content = bits(gather_node(scene, kContent, UInt(0u), in_tree));
   Float prob = tree_share(scene);
+  const Mask is_around = active & !in_tree;
+  if (any(is_around)) prob = select(is_around, light_prob(scene, around, is_around), prob);
   const auto inner = [&] { return in_tree & ((content & UInt(kLightLeafBit)) == UInt(0u)); };
   for (Mask open = inner(); any(open); open = inner()) {
     const UInt left = select(open, content, UInt(0u)), right = left + UInt(1u);

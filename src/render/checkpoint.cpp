@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 #include <type_traits>
@@ -14,7 +15,8 @@ namespace {
 /// Of the sections' contents; another one says that the file is of another program.
 constexpr std::uint32_t kFormatVersion = 3;
 
-constexpr std::uint64_t kLongestTraits = 1 << 20, kLongestForm = 1 << 20;
+constexpr std::uint64_t kLongestTraits = 1 << 20, kLongestForm = 1 << 20, kLongestProvenance = 1 << 24;
+constexpr double kTicksPerSecond = 1e6;
 constexpr std::uint32_t kLargestSide = 65536;
 
 class Writer {
@@ -148,6 +150,30 @@ bool unpack(std::span<const std::byte> bytes, FilmForm& form) {
   return r.at_end() && is_side(form.settings.width) && is_side(form.settings.height);
 }
 
+Writer pack(const Provenance& made) {
+  Writer w;
+  w.list(made.settings, [&](const auto& setting) {
+    w.text(setting.first);
+    w.text(setting.second);
+  });
+  w.number(static_cast<std::uint64_t>(std::max(made.seconds, 0.0) * kTicksPerSecond));
+  return w;
+}
+
+bool unpack(std::span<const std::byte> bytes, Provenance& made) {
+  Reader r(bytes);
+  r.list([&] {
+    std::string name, text;
+    r.text(name);
+    r.text(text);
+    made.settings[printable(name)] = printable(text);
+  });
+  std::uint64_t ticks = 0;
+  r.number(ticks);
+  made.seconds = static_cast<double>(ticks) / kTicksPerSecond;
+  return r.at_end();
+}
+
 Writer pack(const Work& work) {
   Writer w;
   for (const SampleRange& range : {work.samples, work.feature_samples}) {
@@ -213,14 +239,19 @@ SourceLocation place(const std::string& path) {
 
 }  // namespace
 
-IoStatus save_render(const std::string& path, const Traits& traits, const FilmForm& form, const Work& work, Film& film,
-                     OlderGeneration older) {
-  const Writer packed_traits = pack(traits), packed_form = pack(form), packed_work = pack(work);
-  std::vector<Section> sections = {
-      {"traits", packed_traits.bytes()}, {"form", packed_form.bytes()}, {"progress", packed_work.bytes()}};
+IoStatus save_render(const std::string& path, const Traits& traits, const FilmForm& form, const Provenance& made,
+                     const Work& work, Film& film, OlderGeneration older) {
+  const Writer packed_traits = pack(traits), packed_form = pack(form), packed_made = pack(made),
+               packed_work = pack(work);
+  std::vector<Section> sections = {{"traits", packed_traits.bytes()},
+                                   {"form", packed_form.bytes()},
+                                   {"made", packed_made.bytes()},
+                                   {"progress", packed_work.bytes()}};
   for (const Film::State& state : film.state()) sections.push_back({state.name, state.bytes});
   return write_sections(path, kFormatVersion, sections, older);
 }
+
+SectionFileIdentity identity_of_render(const std::string& path) { return identity_of(path, kFormatVersion); }
 
 RenderReader::RenderReader(const std::string& path) : reader_(path, kFormatVersion) {
   std::vector<std::byte> bytes;
@@ -228,7 +259,8 @@ RenderReader::RenderReader(const std::string& path) : reader_(path, kFormatVersi
     if (!reader_.read(name, bytes, most_bytes)) return false;
     return unpack(bytes, value) || reader_.distrust(fmt::format("says what cannot be in section '{}'", name));
   };
-  if (section("traits", kLongestTraits, stored_.traits) && section("form", kLongestForm, stored_.form)) {
+  if (section("traits", kLongestTraits, stored_.traits) && section("form", kLongestForm, stored_.form) &&
+      section("made", kLongestProvenance, stored_.made)) {
     section("progress", longest_progress(stored_.form.settings), stored_);
   }
 }
@@ -268,7 +300,7 @@ std::pair<std::string, std::string> objection(const StoredRender& stored, const 
 }
 
 Attempt attempt(const std::string& path, const Traits& traits, const SampleSchedule& schedule, Work& work, Film& film,
-                std::string& damage, Diagnostics& diagnostics) {
+                double& seconds, std::string& damage, Diagnostics& diagnostics) {
   RenderReader reader(path);
   using State = SectionReader::State;
   damage = reader.complaint();
@@ -309,16 +341,17 @@ Attempt attempt(const std::string& path, const Traits& traits, const SampleSched
   work.progress = stored.progress;
   work.feature_progress = stored.feature_progress;
   work.dropped = stored.dropped;
+  seconds = stored.made.seconds;
   return Attempt::resumed;
 }
 
 }  // namespace
 
 Resumption resume_render(const std::string& path, const Traits& traits, const SampleSchedule& schedule, Work& work,
-                         Film& film, Diagnostics& diagnostics) {
+                         Film& film, double& seconds, Diagnostics& diagnostics) {
   const std::string older = older_generation_of(path);
   std::string damage, older_damage;
-  const Attempt newest = attempt(path, traits, schedule, work, film, damage, diagnostics);
+  const Attempt newest = attempt(path, traits, schedule, work, film, seconds, damage, diagnostics);
   switch (newest) {
     case Attempt::resumed:
       return Resumption::newest;
@@ -330,7 +363,7 @@ Resumption resume_render(const std::string& path, const Traits& traits, const Sa
     case Attempt::damaged:
       break;
   }
-  switch (attempt(older, traits, schedule, work, film, older_damage, diagnostics)) {
+  switch (attempt(older, traits, schedule, work, film, seconds, older_damage, diagnostics)) {
     case Attempt::resumed:
       diagnostics.warning(place(path), "the checkpoint " + damage + "; going on with the older " + quoted(older));
       return Resumption::older;

@@ -7,6 +7,7 @@
 #include "film/film.h"
 #include "film/section_file.h"
 #include "render/crew.h"
+#include "render/provenance.h"
 #include "render/traits.h"
 
 namespace norrsken {
@@ -23,6 +24,7 @@ struct FilmForm {
 struct StoredRender {
   Traits traits;
   FilmForm form;
+  Provenance made;
   SampleRange samples, feature_samples;
   SampleGoal goal;
   std::uint32_t tile_width = 0, tile_height = 0;
@@ -30,8 +32,11 @@ struct StoredRender {
   DroppedSamples dropped;
 };
 
-IoStatus save_render(const std::string& path, const Traits& traits, const FilmForm& form, const Work& work, Film& film,
-                     OlderGeneration older);
+IoStatus save_render(const std::string& path, const Traits& traits, const FilmForm& form, const Provenance& made,
+                     const Work& work, Film& film, OlderGeneration older);
+
+/// What is at `path`, as it is now.
+SectionFileIdentity identity_of_render(const std::string& path);
 
 /// Reads a file of `save_render` in the order in which it was written: first what it holds, then its sums.
 class RenderReader {
@@ -58,9 +63,9 @@ enum class Resumption {
   older,   ///< with the generation before, the file being damaged; this was told as a warning
   refused  ///< this was told as an error
 };
-/// Takes up what `path` holds of the same rendering, into `work` and `film`. `work` comes with what is asked for, and
-/// `schedule` says what is to become of it.
+/// Takes up what `path` holds of the same rendering, into `work` and `film`, and the `seconds` that it took. `work` comes
+/// with what is asked for, and `schedule` says what is to become of it.
 Resumption resume_render(const std::string& path, const Traits& traits, const SampleSchedule& schedule, Work& work,
-                         Film& film, Diagnostics& diagnostics);
+                         Film& film, double& seconds, Diagnostics& diagnostics);
 
 }  // namespace norrsken

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "base/memory.h"
@@ -42,6 +43,25 @@ std::uint64_t merging_bytes(const FilmForm& form) {
   return 2 * film_bytes(form) + pixels_of(form) * image_bytes_per_pixel(form.settings, form.layers);
 }
 
+/// Tiles along the sides of the image.
+std::uint64_t columns_of(const StoredRender& stored) {
+  return (static_cast<std::uint64_t>(stored.form.settings.width) + stored.tile_width - 1) / stored.tile_width;
+}
+std::uint64_t rows_of(const StoredRender& stored) {
+  return (static_cast<std::uint64_t>(stored.form.settings.height) + stored.tile_height - 1) / stored.tile_height;
+}
+
+/// Whether every tile's progress is there and within what the file says that it holds.
+bool is_possible(const StoredRender& stored) {
+  if (stored.tile_width == 0 || stored.tile_height == 0) return false;
+  const std::uint64_t tiles = columns_of(stored) * rows_of(stored);
+  if (stored.progress.size() != tiles || stored.goal.of_tile.size() != tiles) return false;
+  for (std::size_t i = 0; i < tiles; ++i) {
+    if (stored.progress[i] > stored.samples.count() || stored.goal.of_tile[i] > stored.samples.count()) return false;
+  }
+  return true;
+}
+
 /// Why a file cannot be a part of anything, or nothing.
 std::string complaint_about(const Part& part) {
   if (part.reader->state() == SectionReader::State::missing) return "there is no file " + part.name();
@@ -51,26 +71,67 @@ std::string complaint_about(const Part& part) {
   if (film_bytes(stored.form) > part.reader->file_bytes()) {
     return part.name() + " says that its film is larger than the file";
   }
-  if (std::ranges::any_of(stored.goal.of_tile, [&](std::uint32_t goal) { return goal != stored.samples.count(); })) {
-    return part.name() +
-           " is of an adaptive rendering, whose tiles have different numbers of samples: what is merged has "
-           "the same number everywhere";
-  }
-  const auto all = [](const TileProgress& progress, SampleRange range) {
-    return std::ranges::all_of(progress, [&](std::uint32_t done) { return done == range.count(); });
-  };
-  if (stored.progress.empty() || !all(stored.progress, stored.samples) ||
-      !all(stored.feature_progress, stored.feature_samples)) {
-    return fmt::format("{} is not finished: it lacks some of its samples {} to {}; run its command again", part.name(),
-                       stored.samples.first, stored.samples.end - 1);
+  if (!is_possible(stored)) return part.name() + " says that it has come to where it cannot be";
+  const bool has_features = std::ranges::all_of(
+      stored.feature_progress, [&](std::uint32_t done) { return done == stored.feature_samples.count(); });
+  if (!has_features || std::ranges::all_of(stored.progress, [](std::uint32_t done) { return done == 0; })) {
+    return part.name() + " holds no image yet; run its command again";
   }
   return {};
+}
+
+/// Pixels of one tile, which are fewer at the right and lower edges.
+std::uint64_t pixels_of_tile(const StoredRender& stored, std::uint64_t tile) {
+  const auto side = [](std::uint64_t index, std::uint64_t tile_side, int image_side) {
+    return std::min(tile_side, static_cast<std::uint64_t>(image_side) - index * tile_side);
+  };
+  return side(tile % columns_of(stored), stored.tile_width, stored.form.settings.width) *
+         side(tile / columns_of(stored), stored.tile_height, stored.form.settings.height);
+}
+
+/// The mean over the image.
+double samples_per_pixel(const StoredRender& stored) {
+  double sum = 0;
+  for (std::size_t i = 0; i < stored.progress.size(); ++i)
+    sum += static_cast<double>(stored.progress[i]) * static_cast<double>(pixels_of_tile(stored, i));
+  return sum / static_cast<double>(pixels_of(stored.form));
+}
+
+std::uint64_t pixels_without_samples(const std::vector<Part>& parts) {
+  const StoredRender& first = parts.front().stored();
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < first.progress.size(); ++i) {
+    const bool none = std::ranges::all_of(parts, [&](const Part& part) { return part.stored().progress[i] == 0; });
+    if (none) count += pixels_of_tile(first, i);
+  }
+  return count;
+}
+
+/// Which samples the film of all parts has, in every pixel.
+SampleSet sample_set(const std::vector<Part>& parts) {
+  const StoredRender& first = parts.front().stored();
+  SampleSet::Tiles tiles{first.tile_width,
+                         first.tile_height,
+                         static_cast<std::uint32_t>(columns_of(first)),
+                         static_cast<std::uint32_t>(first.form.settings.width),
+                         {}};
+  std::vector<SampleRange> ranges;
+  for (const Part& part : parts) {
+    ranges.push_back(part.stored().samples);
+    tiles.done.push_back(part.stored().progress);
+  }
+  return {std::move(ranges), std::move(tiles)};
 }
 
 /// Why two files, the first of which begins before the other, cannot be added up, or nothing.
 std::string complaint_about(const Part& first, const Part& second) {
   const std::string other = difference(second.stored().traits, first.stored().traits);
   if (!other.empty()) return fmt::format("{} is not of the rendering of {}: {}", second.name(), first.name(), other);
+  const StoredRender &one = first.stored(), &two = second.stored();
+  if (one.tile_width != two.tile_width || one.tile_height != two.tile_height ||
+      one.progress.size() != two.progress.size()) {
+    return first.name() + " and " + second.name() + " are of programs that cut images into different tiles";
+  }
   const SampleRange &a = first.stored().samples, &b = second.stored().samples;
   if (b.first >= a.end) return {};
   const std::uint32_t last = std::min(a.end, b.end) - 1;
@@ -91,6 +152,8 @@ IoStatus merge_renders(const std::vector<std::string>& files, bool layers, Merge
   std::ranges::stable_sort(parts, {}, [](const Part& part) { return part.stored().samples.first; });
 
   MergedRender merged;
+  Provenance made = parts.front().stored().made;
+  made.seconds = 0;
   std::uint32_t end = 0, feature_samples = 0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (i > 0) {
@@ -102,9 +165,15 @@ IoStatus merge_renders(const std::vector<std::string>& files, bool layers, Merge
     if (stored.samples.first > end) merged.gaps.push_back({end, stored.samples.first});
     if (stored.samples.first > end || merged.samples.empty()) merged.samples.push_back(stored.samples);
     end = merged.samples.back().end = stored.samples.end;
+    made.seconds += stored.made.seconds;
     merged.dropped_samples += stored.dropped.count;
     feature_samples += stored.feature_samples.count();
+    const double mean = samples_per_pixel(stored);
+    merged.samples_per_pixel += mean;
+    const bool is_finished = std::ranges::equal(stored.progress, stored.goal.of_tile, std::ranges::greater_equal());
+    if (!is_finished) merged.unfinished.push_back({parts[i].path, mean, stored.goal.most()});
   }
+  merged.pixels_without_samples = pixels_without_samples(parts);
 
   const FilmForm& form = parts.front().stored().form;
   MemoryReservation films;
@@ -119,8 +188,13 @@ IoStatus merge_renders(const std::vector<std::string>& files, bool layers, Merge
     if (!part.reader->read_film(part_of_film)) return {part.name() + " " + part.reader->complaint()};
     film.add(part_of_film);
   }
-  film.set_samples(SampleSet(merged.samples));
+  film.set_samples(sample_set(parts));
   merged.image = film.image(layers, feature_samples);
+  merged.error = film.error({0, 0, film.width(), film.height()}).relative();
+  const bool is_whole = merged.unfinished.empty();
+  merged.image.metadata =
+      metadata_of(made, {merged.samples_per_pixel, is_whole ? merged.samples : std::vector<SampleRange>{}, merged.error,
+                         merged.dropped_samples, !is_whole});
   result = std::move(merged);
   return {};
 }

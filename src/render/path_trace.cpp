@@ -172,7 +172,12 @@ std::optional<PathTrace> trace_path(const Scene& scene, const RenderOptions& opt
   WaveCounts counts;
   const WaveJob job{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 1, 1, sample, 1};
   kernels->trace_wave(view, job, memory, counts);
-  return path.take(memory);
+  PathTrace trace = path.take(memory);
+  const std::vector<std::string>& ids = scene.tables().shape_ids;
+  for (PathVertex& v : trace.vertices) {
+    if (v.hit && v.shape < ids.size()) v.shape_id = ids[v.shape];
+  }
+  return trace;
 }
 
 }  // namespace norrsken

@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "compile/compile.h"
 #include "film/section_file.h"
 #include "isa/entry.h"
-#include "render/checkpoint.h"
+#include "render/checkpoint_file.h"
 #include "render/crew.h"
 #include "render/frame_memory.h"
+#include "render/provenance.h"
 #include "render/scene_view.h"
 
 namespace norrsken {
@@ -105,18 +107,18 @@ class RenderSession final : public Render {
     view_.sampler.seed += options.seed;
     film_.set_samples(SampleSet({{work_.samples.first, kMostSamples}}));
     if (view_.integrator.from_lights) film_.add_splats(Splats(view_.film, tables_.filter));
-    checkpoint_ = options.checkpoint;
+    made_.settings = settings_of(scene_, options, kernels_.name, accel_name(view_.accel.kind));
+    if (options.samples) ranges_ = {*options.samples};
+    if (options.checkpoint.empty()) return;
     checkpoint_seconds_ = options.checkpoint_seconds;
-    if (checkpoint_.empty()) return;
-    form_ = {film_settings(tables_), view_.sampler.kind, view_.integrator.from_lights, layers(scene_, options)};
-    traits_ = traits_of(tables_, view_, form_.settings, form_.layers, kernels_.name, accel_name(view_.accel.kind));
+    FilmForm form = {film_settings(tables_), view_.sampler.kind, view_.integrator.from_lights, layers(scene_, options)};
+    Traits traits = traits_of(tables_, view_, form.settings, form.layers, kernels_.name, accel_name(view_.accel.kind));
+    checkpoint_.emplace(options.checkpoint, std::move(traits), std::move(form));
   }
 
-  /// Takes up what the checkpoint holds.
+  /// Takes up what the checkpoint holds, if there is to be one.
   void resume(Diagnostics& diagnostics) {
-    const Resumption resumption = resume_render(checkpoint_, traits_, schedule_, work_, film_, diagnostics);
-    // What is damaged must not take the place of what is not.
-    older_ = resumption == Resumption::older ? OlderGeneration::replace : OlderGeneration::keep;
+    if (checkpoint_) checkpoint_->resume(schedule_, work_, film_, seconds_before_, diagnostics);
   }
 
   RenderStatistics run(const std::function<void(const RenderProgress&)>& on_progress) override {
@@ -147,6 +149,9 @@ class RenderSession final : public Render {
     s.lanes = static_cast<int>(kernels_.lanes);
     s.samples_of_pixels = !view_.integrator.from_lights;
     s.accelerator = accel_name(view_.accel.kind);
+    made_.seconds = seconds_before_ + s.seconds;
+    metadata_ = metadata_of(
+        made_, {static_cast<double>(s.samples) / pixels(), ranges_, s.error, s.dropped_samples, s.cancelled});
     if (on_progress) {
       RenderProgress last = progress();
       last.elapsed_seconds = s.seconds;
@@ -159,12 +164,16 @@ class RenderSession final : public Render {
 
   void cancel() noexcept override { cancelled_.store(true, std::memory_order_relaxed); }
 
-  Image image(bool statistics) const override { return film_.image(statistics, work_.feature_samples.count()); }
+  Image image(bool statistics) const override {
+    Image image = film_.image(statistics, work_.feature_samples.count());
+    image.metadata = metadata_;
+    return image;
+  }
 
  private:
   /// Short where checkpoints are written more often than progress is told.
   std::chrono::milliseconds tick_interval() const {
-    const double seconds = checkpoint_.empty() ? kProgressSeconds : std::min(kProgressSeconds, checkpoint_seconds_);
+    const double seconds = !checkpoint_ ? kProgressSeconds : std::min(kProgressSeconds, checkpoint_seconds_);
     return std::chrono::milliseconds(std::max(static_cast<int>(seconds * 1000), 1));
   }
 
@@ -187,7 +196,7 @@ class RenderSession final : public Render {
                                 since_progress = {};
                                 tell();
                               }
-                              return goes_on() && (checkpoint_.empty() || since_save.seconds() < checkpoint_seconds_);
+                              return goes_on() && (!checkpoint_ || since_save.seconds() < checkpoint_seconds_);
                             }};
       if (!has_features_) {
         crew.run_features(tick);
@@ -195,6 +204,7 @@ class RenderSession final : public Render {
         watch = {};  // figures, and the time that there is, are those of the image, not of its layers
       }
       if (has_features_) crew.run(tick);
+      made_.seconds = seconds_before_ + watch.seconds();
       save();
     }
   }
@@ -217,9 +227,7 @@ class RenderSession final : public Render {
   }
 
   void save() {
-    if (checkpoint_.empty()) return;
-    checkpoint_error_ = save_render(checkpoint_, traits_, form_, work_, film_, older_).error;
-    if (checkpoint_error_.empty()) older_ = OlderGeneration::keep;
+    if (checkpoint_) checkpoint_error_ = checkpoint_->save(made_, work_, film_).error;
   }
 
   Scene scene_;
@@ -233,18 +241,21 @@ class RenderSession final : public Render {
   SampleSchedule schedule_;
   Work work_;
   bool has_features_ = false;  ///< as far as the calling thread knows
-  std::string checkpoint_;
+  std::optional<CheckpointFile> checkpoint_;
   double checkpoint_seconds_ = 0;
-  Traits traits_;  ///< this and the next for checkpoints only
-  FilmForm form_;
-  OlderGeneration older_ = OlderGeneration::keep;
   std::string checkpoint_error_;
+  Provenance made_;
+  double seconds_before_ = 0;  ///< that the checkpoint's samples took
+  std::vector<SampleRange> ranges_;
+  Metadata metadata_;
   std::atomic<bool> cancelled_{false};
 };
 
 }  // namespace
 
 IoStatus check_checkpoint_writable(const std::string& path) { return check_sections_writable(path); }
+
+std::vector<std::string> checkpoint_files(const std::string& path) { return files_of_sections(path); }
 
 std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& options, Diagnostics& diagnostics) {
   const KernelEntry* kernels = choose_kernels(options.isa, diagnostics);
@@ -283,7 +294,7 @@ std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& 
   auto built = frame ? build_accel(scene.tables(), accel, diagnostics) : nullptr;
   if (!built) return nullptr;
   auto session = std::make_unique<RenderSession>(scene, options, *kernels, std::move(*frame), std::move(built));
-  if (!options.checkpoint.empty()) session->resume(diagnostics);
+  session->resume(diagnostics);
   if (diagnostics.has_errors()) return nullptr;
   return session;
 }

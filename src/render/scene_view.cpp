@@ -17,8 +17,12 @@ constexpr struct {
 } kAccels[] = {
     {"planes", AccelKind::planes}, {"moller_trumbore", AccelKind::moller_trumbore}, {"embree", AccelKind::embree}};
 
-/// Lanes without a hit read the first surface, which there has to be.
-constexpr SurfaceRecord kNoSurface{};
+/// Lanes that gather nothing read the first element, which scenes without a surface have none of.
+template <class T>
+const T* data_or_one(const Array<T>& values) {
+  static const T one{};
+  return values.empty() ? &one : values.data();
+}
 
 }  // namespace
 
@@ -75,8 +79,8 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   view.positions = tables.positions.data();
   view.normals = tables.normals.empty() ? nullptr : tables.normals.data();
   view.triangle_vertices = tables.triangle_vertices.data();
-  view.surfaces = tables.surfaces.empty() ? &kNoSurface : tables.surfaces.data();
-  view.shapes = tables.shapes.data();
+  view.surfaces = data_or_one(tables.surfaces);
+  view.shapes = data_or_one(tables.shapes);
   view.parameters = tables.parameters.data();
   view.texels = tables.texels.data();
   view.texcoords = tables.texcoords.empty() ? nullptr : tables.texcoords.data();

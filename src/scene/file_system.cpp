@@ -20,8 +20,6 @@ std::string builtin_key(const std::string& path) {
   return std::filesystem::path(path.substr(kBuiltin.size())).lexically_normal().generic_string();
 }
 
-bool is_builtin(std::string_view path) { return path.starts_with(kBuiltin); }
-
 std::optional<std::string> read_builtin(const std::string& path, std::string& error) {
   const std::string key = builtin_key(path);
   for (const auto& [name, contents] : builtin_files()) {
@@ -32,6 +30,8 @@ std::optional<std::string> read_builtin(const std::string& path, std::string& er
 }
 
 }  // namespace
+
+bool is_builtin(std::string_view path) { return path.starts_with(kBuiltin); }
 
 std::optional<std::string> FileSystem::read(const std::string& path, std::string& error) const {
   if (is_builtin(path)) return read_builtin(path, error);
@@ -136,7 +136,7 @@ std::string accepted_files(const std::string& name, const std::vector<std::strin
     if (is_builtin(folder) && builtin.empty()) builtin = builtin_below(folder, folder.size());
     if (folder.empty()) folder = "the current folder";
   }
-  return "a file in " + listed(folders, kMaxPathBytes) + (builtin.empty() ? "" : ": " + builtin);
+  return "a file in " + listed(folders, kMaxPathBytes) + (builtin.empty() ? "" : " (" + builtin + ")");
 }
 
 }  // namespace norrsken

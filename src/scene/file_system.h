@@ -27,6 +27,9 @@ class FileSystem {
   virtual bool is_folder(const std::string& path) const;
 };
 
+/// Whether the path means a file compiled into the program.
+bool is_builtin(std::string_view path);
+
 /// A file, and its part of the memory budget.
 struct FileContents {
   MemoryReservation memory;

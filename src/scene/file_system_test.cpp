@@ -1,5 +1,6 @@
 #include "scene/file_system.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -10,6 +11,7 @@
 #include <filesystem>
 
 #include "scene/memory_files.h"
+#include "scene/read_files.h"
 #include "tests/temporary_folder.h"
 
 namespace norrsken {
@@ -90,6 +92,24 @@ TEST_F(FileSystemTest, KnowsBuiltinFiles) {
   EXPECT_FALSE(files_.is_folder("builtin:room/room.xml"));
 }
 
+TEST_F(FileSystemTest, RecordsWhatWasReadAndWhatItHeld) {
+  const std::string a = folder_.write("a", "first"), b = folder_.write("b", "second"), c = folder_.write("c", "first");
+  const auto record = [](const std::vector<std::string>& paths) {
+    auto files = std::make_unique<RecordedFiles>();
+    std::string error;
+    for (const std::string& path : paths) files->read(path, error);
+    return files;
+  };
+  EXPECT_THAT(record({b, a, b, "builtin:room/room.xml", folder_.file("missing")})->paths(), testing::ElementsAre(a, b));
+  const std::string both = record({a, b})->fingerprint();
+  EXPECT_EQ(both.size(), 32u);
+  EXPECT_EQ(both, record({b, c, a, b})->fingerprint()) << "order, names and repetitions do not count";
+  EXPECT_NE(both, record({a})->fingerprint());
+  EXPECT_NE(both, record({a, b, "builtin:room/room.xml"})->fingerprint());
+  folder_.write("a", "First");
+  EXPECT_NE(both, record({a, b})->fingerprint());
+}
+
 TEST(ResolveFile, LooksInTheFoldersInTheirOrder) {
   const MemoryFiles files(
       {{"scenes/room.xml", ""}, {"scenes/a.obj", ""}, {"lib/a.obj", ""}, {"lib/b.obj", ""}, {"/abs/c.obj", ""}});
@@ -127,8 +147,9 @@ TEST(AcceptedFiles, NameTheFoldersAndTheBuiltInFiles) {
   EXPECT_EQ(accepted_files("/a.obj", {"dir/"}), "the path of an existing file");
   EXPECT_EQ(accepted_files("builtin:a.obj", {"dir/"}), "builtin:room/room.xml, builtin:room/parts/wall.obj");
   EXPECT_EQ(accepted_files("a.obj", {"builtin:room/parts/", "builtin:room/"}),
-            "a file in builtin:room/parts/, builtin:room/: wall.obj");
-  EXPECT_EQ(accepted_files("a.obj", {"builtin:room/"}), "a file in builtin:room/: room.xml, parts/wall.obj");
+            "a file in builtin:room/parts/, builtin:room/ (wall.obj)");
+  EXPECT_EQ(accepted_files("a.obj", {"builtin:room/"}), "a file in builtin:room/ (room.xml, parts/wall.obj)");
+  EXPECT_EQ(accepted_files("a.obj", {"builtin:"}), "a file in builtin: (room/room.xml, room/parts/wall.obj)");
 }
 
 }  // namespace

@@ -160,15 +160,22 @@ double Parameters::number_of(const Property& property, std::string_view name, do
                              Ends ends) {
   min = std::max(min, -kMaxNumber);
   max = std::min(max, kMaxNumber);
-  const auto rgb = color_of(property, name, -kMaxNumber, kMaxNumber, false);
-  if (!rgb) return fallback;
-  // The mean of three that are the same is not always the same.
-  const double value = rgb->x == rgb->y && rgb->y == rgb->z ? rgb->x : (rgb->x + rgb->y + rgb->z) / 3;
+  double value = 0;
+  bool is_number = true;
+  if (const double* real = std::get_if<double>(&property.value)) {
+    value = *real;
+  } else if (const std::int64_t* integer = std::get_if<std::int64_t>(&property.value)) {
+    value = static_cast<double>(*integer);
+  } else {
+    const auto rgb = color_of(property, name, -kMaxNumber, kMaxNumber, false);
+    if (!rgb) return fallback;
+    // The mean of three that are the same is not always the same.
+    value = rgb->x == rgb->y && rgb->y == rgb->z ? rgb->x : (rgb->x + rgb->y + rgb->z) / 3;
+    is_number = false;
+  }
   const bool is_above = ends == Ends::closed ? value >= min : value > min;
   const bool is_below = ends == Ends::open ? value < max : value <= max;
   if (is_above && is_below) return value;
-  const bool is_number =
-      std::holds_alternative<double>(property.value) || std::holds_alternative<std::int64_t>(property.value);
   error(name, fmt::format("'{}' is {}{}{}", name, value, is_number ? "" : " in the mean", property.origin),
         number_range("a number", min, max, value, ends));
   return fallback;
@@ -361,8 +368,9 @@ void Parameters::accept_without_effect(const BaseParameter& parameter) {
   }
   if (diagnostics_.error_count() > errors) return;
   const std::string owner = parameter.plugin.empty() ? with_article(node_.kind) : name_of(node_);
-  diagnostics_.note(where(parameter.name), fmt::format("'{}' of {} has no effect here", parameter.name, owner),
-                    std::string(parameter.instead));
+  const std::string instead = parameter.instead.empty() ? "" : fmt::format(" (instead: {})", parameter.instead);
+  diagnostics_.note(where(parameter.name),
+                    fmt::format("'{}' of {} has no effect here{}", parameter.name, owner, instead));
 }
 
 void Parameters::finish() {

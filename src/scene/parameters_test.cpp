@@ -214,23 +214,6 @@ TEST_F(ParametersTest, UnusedParametersAreErrors) {
             "3: unused parameter 'zzz' of bsdf 'diffuse' (accepted: alpha, reflectance)");
 }
 
-TEST_F(ParametersTest, WhatTheBaseClassesReadIsNotedOnce) {
-  node_.kind = "sensor", node_.plugin = "perspective";
-  give("shutter_open", "float", 1.0);
-  give("focus_distance", "integer", std::int64_t{5});
-  give("focus_distanc", "float", 5.0);
-  give("shutter_close", "string", std::string("late"));
-  Parameters p = parameters();
-  p.finish();
-  parameters().finish();
-  EXPECT_EQ(complaint(),
-            "2: 'shutter_open' of a sensor has no effect here; "
-            "2: 'focus_distance' of a sensor has no effect here (accepted: sensor 'thinlens'); "
-            "3: unused parameter 'focus_distanc' of sensor 'perspective', did you mean 'focus_distance'? (accepted: no "
-            "parameters); "
-            "2: 'shutter_close' is a string (accepted: float)");
-}
-
 TEST_F(ParametersTest, UnusedChildrenAreErrors) {
   give_child("texture", "bitmap", "reflectance");
   give_child("bsdf", "diffuse");
@@ -290,23 +273,6 @@ TEST_F(ParametersTest, NodesOfOneValueAreNumbers) {
   EXPECT_EQ(p.number("beta", 0.5, 0, 1), 0.5);
   p.finish();
   EXPECT_EQ(complaint(), "4: 'beta' is 2 (accepted: a number from 0 to 1)");
-}
-
-/// As Blender's exporter writes every tint: what counts, and is held against the range, is the mean.
-TEST_F(ParametersTest, ColoursAreNumbersWhereTexturesMayStand) {
-  give("tint", "rgb", Property::Rgb{{0.1, 0.2, 1.2}});
-  give("grey", "rgb", Property::Rgb{glm::dvec3(0.3)});
-  give("curve", "spectrum", Property::Spectrum{{{0, 0.4}}});
-  give("bright", "rgb", Property::Rgb{{1, 2, 3}});
-  give("radius", "rgb", Property::Rgb{glm::dvec3(1)});
-  Parameters p = parameters();
-  EXPECT_NEAR(p.mean("tint", 0, 0, 1), 0.5, 1e-12);
-  EXPECT_EQ(p.mean("grey", 0, 0, 1), 0.3);
-  EXPECT_NEAR(p.mean("curve", 0, 0, 1), 0.4, 1e-12);
-  EXPECT_EQ(p.mean("bright", 0.5, 0, 1), 0.5);
-  EXPECT_EQ(p.number("radius", 7, 0, 10), 7) << "no texture in the format";
-  EXPECT_EQ(complaint(),
-            "2: 'bright' is 2 in the mean (accepted: a number from 0 to 1); 2: 'radius' is an rgb (accepted: float)");
 }
 
 TEST_F(ParametersTest, NodesOfOneValueAreChecked) {

@@ -51,10 +51,13 @@ NORRSKEN_INLINE void compress_store3(const Queue& q, std::uint32_t first_field, 
 
 /// `Scene`, here and below: SceneView or PlainScene.
 template <class Scene>
+NORRSKEN_INLINE Float load_eta2(const Scene& scene, const Queue& q, std::uint32_t i) {
+  return scene.refracts ? load(q.field(kRayEta2) + i) : Float(1.0f);
+}
+template <class Scene>
 NORRSKEN_INLINE Ray load_ray(const Scene& scene, const Queue& q, std::uint32_t i) {
-  return {load3(q, kRayOriginX, i),         load3(q, kRayDirectionX, i),
-          load3(q, kRayThroughputRed, i),   load(q.field(kRayPdf) + i),
-          load_uint(q.field(kRaySlot) + i), scene.refracts ? load(q.field(kRayEta2) + i) : Float(1.0f)};
+  return {load3(q, kRayOriginX, i),   load3(q, kRayDirectionX, i),      load3(q, kRayThroughputRed, i),
+          load(q.field(kRayPdf) + i), load_uint(q.field(kRaySlot) + i), load_eta2(scene, q, i)};
 }
 template <class Scene>
 NORRSKEN_INLINE void store_ray_fields(const Scene& scene, const Queue& q, const Ray& r, const Compaction& c) {

@@ -69,7 +69,7 @@ template <class Model, class Scene>
 NORRSKEN_INLINE void sample_next_ray(const Scene& scene, const ShadeSettings& settings, const Sampler& sampler,
                                      const SampleKey& key, const Hit& hit, const SurfacePoint& surface,
                                      const Perturbation& map, const typename Model::Parameters& bsdf, const Vec3f& wo,
-                                     Queue& next_rays, Mask active) {
+                                     Float path_eta2, Queue& next_rays, Mask active) {
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
   const auto n = static_cast<std::uint32_t>(scene.integrator.bsdf_samples);
   const SampleKey k = sampler.repetition(key, settings.bsdf_sample, n);
@@ -80,7 +80,7 @@ NORRSKEN_INLINE void sample_next_ray(const Scene& scene, const ShadeSettings& se
   // What is no number goes on to where the sample is given up.
   active &= sample.valid & !(max_component(throughput) <= Float(0.0f));
   if (n > 1) throughput = throughput * Float(1.0f / static_cast<float>(n));
-  const Float eta2 = hit.ray.eta2 * (sample.eta * sample.eta);
+  const Float eta2 = path_eta2 * (sample.eta * sample.eta);
   if (settings.roulette) {
     const Float survive = survival_probability(throughput, eta2);
     active &= sampler.sample_1d(key, dimension + hit_dimension::kRoulette) < survive;
@@ -110,7 +110,10 @@ inline void shade_surface_of(const Scene& scene, const ShadeSettings& settings, 
     const SampleKey key = load_sample_key(slots, hit.ray.slot, active);
     if (light_sampling)
       sample_lights<Model>(scene, settings, sampler, key, hit, surface, map, bsdf, wo, shadow_rays, active);
-    if (go_on) sample_next_ray<Model>(scene, settings, sampler, key, hit, surface, map, bsdf, wo, next_rays, active);
+    // The path's eta^2 is loaded where it is asked for: kept from the start, it would take a register all along.
+    if (go_on)
+      sample_next_ray<Model>(scene, settings, sampler, key, hit, surface, map, bsdf, wo, load_eta2(scene, hits, i),
+                             next_rays, active);
   }
 }
 

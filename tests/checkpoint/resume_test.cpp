@@ -353,24 +353,85 @@ TEST_F(Merging, RefusesOverlapsAndStrangers) {
   EXPECT_THAT(complaint({a}), testing::StartsWith("'0_8_0' is damaged in section 'sums'"));
 }
 
-TEST_F(Merging, RefusesWhatIsNotFinished) {
-  RenderOptions long_one = options();
-  long_one.samples = SampleRange{0, 1000000};
-  long_one.checkpoint = folder_.file("long");
-  run_for(room(), long_one, std::chrono::milliseconds(30));
-  EXPECT_EQ(complaint({long_one.checkpoint}),
-            "'long' is not finished: it lacks some of its samples 0 to 999999; run its command again");
+/// Two parts, each stopped anywhere, and finished later: the same bits as what was rendered, and then as the whole.
+TEST_F(Merging, TakesWhatIsNotFinished) {
+  const Scene large = room({.parameters = {}, .width = 160, .height = 120});
+  const auto kept = [&](const std::string& name, SampleRange samples) {
+    RenderOptions part = options();
+    part.samples = samples;
+    part.checkpoint = folder_.file(name);
+    return part;
+  };
+  const RenderOptions a = kept("a", {0, 40}), b = kept("b", {40, 100});
+  const Outcome stopped = run_for(large, a, std::chrono::milliseconds(150));
+  ASSERT_TRUE(stopped.statistics.cancelled) << "it is over too soon";
+  MergedRender merged;
+  ASSERT_EQ(merge_renders({a.checkpoint}, true, merged).error, "");
+  EXPECT_TRUE(identical(merged.image, stopped.image));
+  EXPECT_EQ(merged.error.value, stopped.statistics.error.value);
+  ASSERT_EQ(merged.unfinished.size(), 1u);
+  EXPECT_EQ(merged.unfinished[0].goal, 40u);
+  EXPECT_EQ(merged.unfinished[0].samples_per_pixel, static_cast<double>(stopped.statistics.samples) / (160 * 120));
+  std::uint64_t empty = 0;
+  for (const float n : stopped.image.find("samples")->values) empty += n == 0;
+  EXPECT_EQ(merged.pixels_without_samples, empty);
+
+  // Behind a part that has gaps, too, it is known which samples the variance is of.
+  run_for(large, b, std::chrono::hours(1));
+  ASSERT_EQ(merge_renders({b.checkpoint, a.checkpoint}, true, merged).error, "");
+  EXPECT_EQ(merged.unfinished.size(), 1u);
+  EXPECT_EQ(merged.pixels_without_samples, 0u);
+  RenderOptions rest = options();
+  rest.checkpoint.clear();
+  rest.samples = SampleRange{40, 100};
+  const Image later = render_image(large, rest, true);
+  bool any_unsampled = false;
+  for (std::size_t i = 0; i < later.find("samples")->values.size(); ++i) {
+    if (stopped.image.find("samples")->values[i] > 0) continue;
+    any_unsampled = true;
+    ASSERT_EQ(merged.image.find("variance.G")->values[i], later.find("variance.G")->values[i]);
+  }
+  EXPECT_EQ(any_unsampled, empty > 0);
+  run_for(large, a, std::chrono::hours(1));
+  ASSERT_EQ(merge_renders({b.checkpoint, a.checkpoint}, true, merged).error, "");
+  EXPECT_TRUE(merged.unfinished.empty());
+  RenderOptions all = options(100);
+  all.checkpoint.clear();
+  EXPECT_TRUE(identical(merged.image, render_image(large, all, true)));
 }
 
-TEST_F(Merging, RefusesWhatIsUneven) {
+TEST_F(Merging, TakesWhatIsUneven) {
   RenderOptions adaptive = options();
   adaptive.adaptive = true;
   adaptive.samples_per_pixel = 64;
   adaptive.checkpoint = folder_.file("adaptive");
-  run_for(room({.parameters = {}, .width = 160, .height = 120}), adaptive, std::chrono::hours(1));
-  EXPECT_EQ(complaint({adaptive.checkpoint}),
-            "'adaptive' is of an adaptive rendering, whose tiles have different numbers of samples: what is merged has "
-            "the same number everywhere");
+  const Outcome run = run_for(room({.parameters = {}, .width = 160, .height = 120}), adaptive, std::chrono::hours(1));
+  MergedRender merged;
+  ASSERT_EQ(merge_renders({adaptive.checkpoint}, true, merged).error, "");
+  EXPECT_TRUE(identical(merged.image, run.image));
+  EXPECT_TRUE(merged.unfinished.empty());
+}
+
+TEST_F(Merging, RefusesWhatHoldsNoImageYet) {
+  RenderOptions part = options();
+  part.features = true;
+  part.checkpoint = folder_.file("early");
+  run_for(room(), part, std::chrono::microseconds(0));
+  EXPECT_EQ(complaint({part.checkpoint}), "'early' holds no image yet; run its command again");
+}
+
+/// In one process as well.
+TEST_F(Refusals, OneRenderingAtATimeHasACheckpoint) {
+  Diagnostics diagnostics;
+  const Scene scene = room();
+  auto first = Render::create(scene, options(24), diagnostics);
+  ASSERT_NE(first, nullptr);
+  EXPECT_THAT(
+      messages_of(scene, options(24)),
+      ElementsAre("error: room.ckpt: another process is writing the checkpoint [another file, or this one when it "
+                  "has ended]"));
+  first.reset();
+  EXPECT_THAT(messages_of(scene, options(24)), IsEmpty());
 }
 
 }  // namespace

@@ -44,11 +44,16 @@ using EnvironmentAlone = SceneFolder;
 /// Nothing in it: every ray sees the sky, with whatever the paths begin.
 TEST_F(EnvironmentAlone, ShowsItself) {
   for (const char* integrator : {"path", "direct", "volpath", "ptracer"}) {
-    const std::string elements = std::string("<integrator type=\"") + integrator + "\"/>" + camera(kSize) +
-                                 R"(<emitter type="constant"><float name="radiance" value="2"/></emitter>)";
-    const auto picture =
-        picture_of(render_image(load_elements(elements), {.samples_per_pixel = 4, .threads = kThreads}));
-    for (const auto& pixel : picture.pixels) EXPECT_EQ(pixel[1], 2) << integrator;
+    write("sky.xml", std::string("<scene version=\"3.0.0\"><integrator type=\"") + integrator + "\"/>" + camera(kSize) +
+                         R"(<emitter type="constant"><float name="radiance" value="2"/></emitter></scene>)");
+    Diagnostics warnings;
+    const auto scene = Scene::load(path("sky.xml"), {}, warnings);
+    ASSERT_TRUE(scene);
+    for (const char* accel : {"auto", "planes", "embree", "moller_trumbore"}) {
+      const auto picture =
+          picture_of(render_image(*scene, {.samples_per_pixel = 4, .threads = kThreads, .accelerator = accel}));
+      for (const auto& pixel : picture.pixels) EXPECT_EQ(pixel[1], 2) << integrator << " " << accel;
+    }
   }
 }
 

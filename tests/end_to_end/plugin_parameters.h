@@ -27,6 +27,9 @@ inline constexpr const char* kComponents = "components from 0 to 1";
 inline constexpr const char* kLight = "components of at least 0";
 inline const Row kToWorld{"to_world", "transform", R"(<rotate z="1" angle="90"/>)", R"(<scale value="0"/>)",
                           "scale factors other than 0"};
+/// Of what may be flattened.
+inline const Row kToAnywhere{"to_world", "transform", R"(<rotate z="1" angle="90"/>)", R"(<translate x="1e13"/>)",
+                             "elements up to 1e+12"};
 inline const Row kToUv{"to_uv", "transform", R"(<scale value="2"/>)"};
 inline const Row kFlip{"flip_normals", "boolean", "true"};
 inline const Row kFaceNormals{"face_normals", "boolean", "true"};
@@ -84,7 +87,7 @@ inline const std::vector<Row> kDisney{
     share("sheen_tint"), share("flatness"),  rate("diffuse_reflectance_sampling_rate")};
 inline const std::vector<Row> kRelief{{"flip_invalid_normals", "boolean", "false"},
                                       {"use_shadowing_function", "boolean", "false"}};
-inline const std::vector<Row> kMesh{kToWorld, kFlip, kFaceNormals};
+inline const std::vector<Row> kMesh{kToAnywhere, kFlip, kFaceNormals};
 inline const std::vector<Row> kPath{kMaxDepth, kBounces, kRouletteDepth, kEmitterSamples, kHide};
 inline const std::vector<Row> kView{kToWorld, kNear, kFar};
 inline const std::vector<Row> kAngles{kFov, kFovAxis, kFocalLength};
@@ -154,7 +157,7 @@ inline const Plugin kPlugins[] = {
       {"p0", "point", "1, 2, 3"},
       {"p1", "point", "1, 2, 3"},
       {"radius", "float", "2", "0", "a number above 0"}}},
-    {"shape", "rectangle", "", {kToWorld, kFlip}},
+    {"shape", "rectangle", "", {kToAnywhere, kFlip}},
     {"shape", "disk", "", {kToWorld, kFlip}},
     {"shape", "cube", "", kMesh},
     {"shape", "obj", "", join(kMesh, {file("star.obj"), {"flip_tex_coords", "boolean", "false"}}), {"filename"}},

@@ -1,0 +1,13 @@
+// What an image file says about how it was made.
+#pragma once
+
+#include <string>
+
+#include "exit_status.h"
+
+namespace norrsken::cli {
+
+/// Prints size, channels and texts of an EXR or PNG file.
+ExitStatus tell_image(const std::string& path, bool json);
+
+}  // namespace norrsken::cli
