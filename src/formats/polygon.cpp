@@ -14,19 +14,23 @@ glm::dvec3 between(const PolygonCutter::Point& from, const PolygonCutter::Point&
   return {double{to[0]} - double{from[0]}, double{to[1]} - double{from[1]}, double{to[2]} - double{from[2]}};
 }
 
-}  // namespace
-
-/// The corners in the polygon's plane, seen from its front. False if it has none.
-bool PolygonCutter::project(std::span<const Point> points) {
-  glm::dvec3 normal(0), before = between(points[0], points[1]);
+/// Calls `use` with the normal of each triangle of the fan, as long as twice its area, until that says false.
+template <class Use>
+bool for_each_fan_normal(std::span<const PolygonCutter::Point> points, const Use& use) {
+  glm::dvec3 before = between(points[0], points[1]);
   for (std::size_t i = 2; i < points.size(); ++i) {
     const glm::dvec3 side = between(points[0], points[i]);
-    normal += glm::cross(before, side);
+    if (!use(glm::cross(before, side))) return false;
     before = side;
   }
-  const double length = glm::length(normal);
-  if (!(length > 0 && std::isfinite(length))) return false;
-  normal /= length;
+  return true;
+}
+
+}  // namespace
+
+/// The corners in the plane of that normal, seen from its front.
+void PolygonCutter::project(std::span<const Point> points, glm::dvec3 normal) {
+  normal = glm::normalize(normal);
   // Axes that make coordinates in planes across an axis the very ones of the file.
   const glm::dvec3 size = glm::abs(normal);
   const int dominant = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
@@ -41,20 +45,12 @@ bool PolygonCutter::project(std::span<const Point> points) {
     corners_[i] = {
         {glm::dot(p, x), glm::dot(p, y)}, i == 0 ? count - 1 : i - 1, i + 1 == count ? 0 : i + 1, true, false};
   }
-  return true;
 }
 
 /// Twice the area of a triangle, above 0 if it turns to the left.
 double PolygonCutter::turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
   const Flat &p = corners_[a].at, &q = corners_[b].at, &r = corners_[c].at;
   return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-}
-
-bool PolygonCutter::fan_is_right() const {
-  for (std::uint32_t i = 2; i < corners_.size(); ++i) {
-    if (!(turn(0, i - 1, i) > 0)) return false;
-  }
-  return true;
 }
 
 std::uint32_t PolygonCutter::column(double x) const {
@@ -208,7 +204,17 @@ bool PolygonCutter::clip() {
 
 std::span<const PolygonCutter::Triangle> PolygonCutter::cut(std::span<const Point> corners) {
   constexpr std::int64_t kWorkOfACorner = 64;
-  if (corners.size() <= 3 || !project(corners) || fan_is_right()) return {};
+  if (corners.size() <= 3) return {};
+  glm::dvec3 normal(0);
+  for_each_fan_normal(corners, [&](const glm::dvec3& n) {
+    normal += n;
+    return true;
+  });
+  const double size = glm::dot(normal, normal);
+  const bool has_plane = size > 0 && std::isfinite(size);
+  if (!has_plane || for_each_fan_normal(corners, [&](const glm::dvec3& n) { return glm::dot(n, normal) > 0; }))
+    return {};
+  project(corners, normal);
   fill_grid();
   work_left_ = std::max<std::int64_t>(work_left_, 0) + kWorkOfACorner * static_cast<std::int64_t>(corners.size());
   triangles_.clear();

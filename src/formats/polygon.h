@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 
 #include "base/memory.h"
@@ -39,8 +40,7 @@ class PolygonCutter {
   /// What is good enough to be cut off, from the best to anything at all.
   enum Standard { kEar, kThinEar, kTouchedEar, kNothing, kConvex, kAny };
 
-  bool project(std::span<const Point> corners);
-  bool fan_is_right() const;
+  void project(std::span<const Point> corners, glm::dvec3 normal);
   double turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   bool is_convex(std::uint32_t i) const { return turn(corners_[i].previous, i, corners_[i].next) > 0; }
   void fill_grid();
