@@ -147,7 +147,7 @@ class MitsubaReader {
     }
     context_.upgrade.version = {static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
     const std::string text = quoted(trim(version.text));
-    if (context_.upgrade.version.is_old())
+    if (context_.upgrade.version.is_old() && !std::exchange(told_of_upgrade_, true))
       diagnostics_.warning(
           version.location(),
           fmt::format("the scene is for Mitsuba {} and was upgraded; 'norrsken info' tells how", text));
@@ -336,6 +336,7 @@ class MitsubaReader {
   int file_count_ = 0;
   Node* rejected_ = nullptr;
   bool complete_ = true;
+  bool told_of_upgrade_ = false;
 };
 
 }  // namespace

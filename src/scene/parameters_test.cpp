@@ -197,8 +197,19 @@ TEST_F(ParametersTest, FilesAreLookedUp) {
   EXPECT_EQ(p.file("c"), "");
   EXPECT_EQ(p.file("filename"), "");
   EXPECT_EQ(complaint(),
-            "2: there is no file 'c.obj' (accepted: a file in dir/, lib); "
+            "2: there is no file 'c.obj' (accepted: a file in lib, dir/); "
             "1: bsdf 'diffuse' needs a parameter 'filename' (accepted: <string name=\"filename\" value=\"...\"/>)");
+}
+
+// As Mitsuba 3 takes them: beside an included file comes last.
+TEST_F(ParametersTest, OfTwoFilesTheOneInTheSearchPathsIsMeant) {
+  files_.add("dir/a.obj", "");
+  files_.add("lib/a.obj", "");
+  description_.search_paths = {"lib"};
+  give("a", "string", std::string("a.obj"));
+  Parameters p = parameters();
+  EXPECT_EQ(p.file("a"), "lib/a.obj");
+  EXPECT_EQ(complaint(), "2: 'a.obj' is 'lib/a.obj' here, and there is 'dir/a.obj' too");
 }
 
 TEST_F(ParametersTest, UnusedParametersAreErrors) {
