@@ -45,8 +45,7 @@ TEST(ShapeGroup, IsNowhereWithoutAnInstance) {
 }
 
 TEST(ShapeGroup, MayBeEmpty) {
-  const Compiled c =
-      compile_shape(group("") + R"(<shape type="instance"><ref id="g"/></shape><shape type="sphere"/>)");
+  const Compiled c = compile_shape(group("") + R"(<shape type="instance"><ref id="g"/></shape><shape type="sphere"/>)");
   EXPECT_THAT(c.messages(), ElementsAre("warning: the shapegroup has no shape"));
   EXPECT_THAT(c.info().bounds_max, ElementsAre(1, 1, 1));
 }
