@@ -28,8 +28,8 @@ TEST_F(Cli, OneLostOutputDoesNotCostTheOthers) {
 }
 
 TEST_F(Cli, ImagesTooLargeForTheirFormatsAreRefusedBeforeRendering) {
-  const ProcessResult result =
-      run({"render", "hexagon_room", "--size", "65536x1", "--spp", "1000000000", "-o", "a.jpg", "-o", "b.exr"});
+  const ProcessResult result = run({"render", "hexagon_room", "-Dshadow_rays=1", "--size", "65536x1", "--spp",
+                                    "1000000000", "-o", "a.jpg", "-o", "b.exr"});
   EXPECT_EQ(result.status, 73);
   EXPECT_EQ(
       result.err,
@@ -51,7 +51,8 @@ TEST_F(Cli, QuietJsonIsStartAndDone) {
 
 /// json::parse refuses what is not UTF-8.
 TEST_F(Cli, JsonIsUtf8WhateverThePath) {
-  write("bad\xff.xml", R"(<scene version="3.0.0"><sensor type="perspective"/><shape type="sphere"/><emitter type="constant"/>
+  write("bad\xff.xml",
+        R"(<scene version="3.0.0"><sensor type="perspective"/><shape type="sphere"/><emitter type="constant"/>
 </scene>)");
   const std::vector<std::string> tiny = {"--size", "4x4", "--spp", "1"};
   const auto events =
