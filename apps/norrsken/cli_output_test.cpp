@@ -28,8 +28,8 @@ TEST_F(Cli, OneLostOutputDoesNotCostTheOthers) {
 }
 
 TEST_F(Cli, ImagesTooLargeForTheirFormatsAreRefusedBeforeRendering) {
-  const ProcessResult result =
-      run({"render", "hexagon_room", "--size", "65536x1", "--spp", "1000000000", "-o", "a.jpg", "-o", "b.exr"});
+  const ProcessResult result = run({"render", "hexagon_room", "-Dshadow_rays=1", "--size", "65536x1", "--spp",
+                                    "1000000000", "-o", "a.jpg", "-o", "b.exr"});
   EXPECT_EQ(result.status, 73);
   EXPECT_EQ(
       result.err,

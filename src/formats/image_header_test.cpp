@@ -68,7 +68,7 @@ TEST_F(ImageHeaders, NeedNoPixels) {
 TEST_F(ImageHeaders, AreNotBelievedBeforeTheBytesAreThere) {
   const std::string exr = write_file("a.exr");
   for (const char* type : {"string", "chlist", "box2i", "chromaticities", "float"}) {
-    const std::size_t at = exr.find(std::string(type) + '\0') + std::strlen(type) + 1;
+    const std::size_t at = exr.rfind(std::string(type) + '\0') + std::strlen(type) + 1;
     for (const std::int32_t size : {-1, 0x7fffffff, 1 << 24}) {
       std::string changed = exr;
       std::memcpy(changed.data() + at, &size, sizeof size);
@@ -81,7 +81,7 @@ TEST_F(ImageHeaders, AreNotBelievedBeforeTheBytesAreThere) {
               window, sizeof window);
   EXPECT_EQ(complaint(huge), "its header is damaged, or longer than 4 MiB");
   for (const std::string& whole : {exr, write_file("a.png")}) {
-    for (std::size_t size = 0; size < 500; ++size) {
+    for (std::size_t size = 0; size < 500; size += 3) {
       ImageHeader header;
       const std::string error = complaint(whole.substr(0, size), &header);
       EXPECT_EQ(error.empty(), header.width > 0) << size;

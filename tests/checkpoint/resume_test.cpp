@@ -432,6 +432,11 @@ TEST_F(Refusals, OneRenderingAtATimeHasACheckpoint) {
                   "has ended]"));
   first.reset();
   EXPECT_THAT(messages_of(scene, options(24)), IsEmpty());
+  folder_.write("room.ckpt.lock", "not made by this program");
+  EXPECT_THAT(
+      messages_of(scene, options(24)),
+      ElementsAre("warning: room.ckpt: the checkpoint cannot be locked: nothing keeps another process from writing "
+                  "it"));
 }
 
 }  // namespace
