@@ -78,7 +78,7 @@ TEST(Disk, MirroredItFacesTheWayItsNormalGoes) {
 
 TEST(Disk, RefusesPlacesWhereItCannotBe) {
   EXPECT_THAT(disk(transform(R"(<scale x="0"/>)")).messages,
-              ElementsAre("error: 'to_world' cannot be inverted [scale factors other than 0]"));
+              ElementsAre("error: the disk's area of 0 is too small to be told from 0"));
   EXPECT_THAT(disk(transform(R"(<scale value="1e-25"/>)")).messages,
               ElementsAre("error: the disk's area of 3.14159e-50 is too small to be told from 0"));
   EXPECT_THAT(disk(transform(R"(<scale value="9e11"/><translate x="9e11"/>)")).messages,
@@ -139,6 +139,13 @@ TEST(Cylinder, TurnsItsNormals) {
   EXPECT_TRUE(cylinder(kFlip).shape().flip_normals);
   EXPECT_FALSE(cylinder(mirror).shape().flip_normals) << "outwards still, unlike a sphere";
   EXPECT_TRUE(cylinder(kFlip + mirror).shape().flip_normals);
+}
+
+TEST(Disk, MayBeFlattenedAcrossItsPlane) {
+  const Placed d = place(compile_shape_disk, "disk", transform(R"(<scale x="2" z="0"/><rotate y="1" angle="90"/>)"));
+  EXPECT_THAT(d.messages, IsEmpty());
+  EXPECT_NEAR(d.shape().area, 2 * M_PI, 1e-12);
+  EXPECT_NEAR(glm::distance(glm::dvec3(d.shape().world_from_local[2]), glm::dvec3(1, 0, 0)), 0, 1e-12);
 }
 
 TEST(Cylinder, TakesWhatPrintedDecimalsLeaveAndStraightensIt) {

@@ -225,6 +225,18 @@ TEST(CheckerboardHost, StoresItsColours) {
               ElementsAre(1, 0, 0, 0, 1, 0, 0.4f, 0.4f, 0.4f, 0.2f, 0.2f, 0.2f));
 }
 
+TEST(CheckerboardHost, OfColoursIsTheirMeanWhereItStandsForANumber) {
+  const Compiled c = compile_bsdf(
+      R"(<bsdf type="mask"><texture name="opacity" type="checkerboard"><rgb name="color0" value="0.1 0.2 0.9"/>
+      <float name="color1" value="0.3"/></texture><bsdf type="diffuse"/></bsdf>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const auto& parameters = c.tables().parameters;
+  const std::uint32_t mask = c.tables().surfaces.at(0).material_front & kMaterialOffsetMask;
+  const std::uint32_t texture = word_at(parameters, mask + 1) & kTextureOffsetMask;
+  EXPECT_FLOAT_EQ(parameters.at(texture + 6), 0.3f);
+  for (std::uint32_t k = 9; k < 12; ++k) EXPECT_FLOAT_EQ(parameters.at(texture + k), 0.4f);
+}
+
 TEST(CheckerboardHost, ChangesItsColoursForNumbersAsMitsubaDoes) {
   const Compiled c = compile_bsdf(
       R"(<bsdf type="mask"><texture name="opacity" type="checkerboard"><float name="color0" value="0.1"/>

@@ -158,7 +158,7 @@ inline const Plugin kPlugins[] = {
       {"p1", "point", "1, 2, 3"},
       {"radius", "float", "2", "0", "a number above 0"}}},
     {"shape", "rectangle", "", {kToAnywhere, kFlip}},
-    {"shape", "disk", "", {kToWorld, kFlip}},
+    {"shape", "disk", "", {kToAnywhere, kFlip}},
     {"shape", "cube", "", kMesh},
     {"shape", "obj", "", join(kMesh, {file("star.obj"), {"flip_tex_coords", "boolean", "false"}}), {"filename"}},
     {"shape", "ply", "", join(kMesh, {file("knot.ply"), {"flip_tex_coords", "boolean", "true"}}), {"filename"}},
