@@ -221,7 +221,8 @@ TEST(MitsubaXml, IncludesAreSplicedIn) {
   EXPECT_EQ(std::get<double>(emitter.properties.at(0).value), 10);
   EXPECT_EQ(scene.scene->children[1].node->plugin, "conductor");
   EXPECT_EQ(scene.scene->children[2].node->children.at(0).node->plugin, "diffuse");
-  EXPECT_EQ(scene.search_paths, (std::vector<std::string>{"lib", ""})) << "a <path> comes before the scene's own folder";
+  EXPECT_EQ(scene.search_paths, (std::vector<std::string>{"lib", ""}))
+      << "a <path> comes before the scene's own folder";
 }
 
 TEST(MitsubaXml, OneFileMayBeIncludedTwice) {
