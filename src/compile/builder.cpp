@@ -338,7 +338,7 @@ void Builder::summarise() {
   SceneInfo& info = scene_.info;
   info.parameters = description_.parameters;
   for (const SceneChange& change : description_.changes)
-    info.changes.push_back(place_text(change.location) + ": " + change.text);
+    info.changes.push_back((change.location.file.empty() ? "" : place_text(change.location) + ": ") + change.text);
   info.triangles = t.triangle_count();
   info.spheres = t.sphere_count();
   info.other_shapes = t.analytics.size();

@@ -91,11 +91,16 @@ std::vector<SceneChange> MitsubaUpgrade::take_changes() {
     return std::tie(change.location.file, change.location.line, change.location.column);
   };
   std::ranges::stable_sort(changes_, {}, place);
+  if (left_out_ > 0) changes_.push_back({{}, fmt::format("{} more changes", left_out_)});
   return std::move(changes_);
 }
 
 void MitsubaUpgrade::note(const SourceLocation& location, std::string text) {
-  if (changes_.size() < kMaxChanges) changes_.push_back({location, std::move(text)});
+  if (changes_.size() == kMaxChanges) {
+    ++left_out_;
+  } else {
+    changes_.push_back({location, std::move(text)});
+  }
 }
 
 void MitsubaUpgrade::warn(const SourceLocation& location, std::string text) {

@@ -3,6 +3,7 @@
 // it against Mitsuba 0.6 is told in a warning.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -40,7 +41,7 @@ class MitsubaUpgrade {
   /// Upgrades the nodes that were added, once they have all their properties and children.
   void finish();
 
-  /// File by file, in the order of lines.
+  /// File by file, in the order of lines; of very many the first, and how many more there are.
   std::vector<SceneChange> take_changes();
 
  private:
@@ -72,6 +73,7 @@ class MitsubaUpgrade {
   std::vector<const Node*> order_;                      ///< in which they were added
   std::unordered_map<const Node*, OldNode> old_nodes_;  ///< that are still to be upgraded
   std::vector<SceneChange> changes_;
+  std::uint64_t left_out_ = 0;  ///< changes, for there are so many
   bool told_of_white_ = false, told_of_materials_ = false;
   Diagnostics& diagnostics_;
 };

@@ -84,6 +84,14 @@ TEST(MitsubaUpgrade, ChangesAreToldWithTheirPlaces) {
   EXPECT_TRUE(read("2.1.0", R"(<shape type="sphere"/>)").changes.empty());
 }
 
+TEST(MitsubaUpgrade, OfVeryManyChangesTheFirstAreKept) {
+  std::string shapes;
+  for (int i = 0; i < 10002; ++i) shapes += R"(<shape type="sphere"><float name="aB" value="1"/></shape>)";
+  const auto changes = read("0.6.0", shapes).changes;
+  ASSERT_EQ(changes.size(), 10001U);
+  EXPECT_EQ(changes.back(), ": 2 more changes");
+}
+
 TEST(MitsubaUpgrade, NewerScenesAreLeftAlone) {
   const std::string old = R"(<integrator type="path"><integer name="maxDepth" value="4"/></integrator>)";
   EXPECT_THAT(read("2.0.0", old).description, HasSubstr("maxDepth = 4"));
