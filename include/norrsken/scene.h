@@ -40,8 +40,8 @@ struct SceneInfo {
   };
   std::vector<Item> items;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< the `$parameters` in use and their values
-  std::vector<std::string>
-      files;         ///< on the disk, that the scene was read from: its own, includes, meshes, textures, ...
+  /// On the disk, that the scene was read from: its own file, includes, meshes, textures, ...
+  std::vector<std::string> files;
   std::string hash;  ///< of what these and built-in files hold, whatever their names: 32 hexadecimal digits
   /// Surfaces, those of groups counted once, whatever their number of instances.
   std::uint64_t triangles = 0, spheres = 0, other_shapes = 0;
