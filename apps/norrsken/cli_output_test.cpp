@@ -57,6 +57,7 @@ TEST_F(Cli, JsonIsUtf8WhateverThePath) {
   const std::vector<std::string> tiny = {"--size", "4x4", "--spp", "1"};
   const auto events =
       parse_lines(run(std::vector<std::string>{"render", "bad\xff.xml", "--json", "-o", "\xe9.exr"} + tiny).out);
+  ASSERT_EQ(events.size(), 3u);
   EXPECT_EQ(events.front()["scene"], "bad\xef\xbf\xbd.xml");
   EXPECT_EQ(events.back()["files"], json::array({"\xef\xbf\xbd.exr"}));
   EXPECT_EQ(parse_lines(run({"info", "bad\xff.xml", "--json"}).out).at(0)["scene"], "bad\xef\xbf\xbd.xml");

@@ -43,8 +43,8 @@ struct SceneInfo {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< the `$parameters` in use and their values
   /// What a scene of an old version says in other words, each with its place: "a.xml:4:13: 'maxDepth' is 'max_depth'".
   std::vector<std::string> changes;
-  std::vector<std::string>
-      files;         ///< on the disk, that the scene was read from: its own, includes, meshes, textures, ...
+  /// On the disk, that the scene was read from: its own file, includes, meshes, textures, ...
+  std::vector<std::string> files;
   std::string hash;  ///< of what these and built-in files hold, whatever their names: 32 hexadecimal digits
   /// Surfaces, those of groups counted once, whatever their number of instances.
   std::uint64_t triangles = 0, spheres = 0, other_shapes = 0;

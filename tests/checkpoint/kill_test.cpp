@@ -194,9 +194,8 @@ TEST_F(KillTest, PartsOfSeveralProgramsMerge) {
   EXPECT_FALSE(fs::exists(folder_ / "hexagon_room.exr")) << "a part is no image unless one is asked for";
   const ProcessResult merged = run({"merge", "b.part", "a.part", "-o", "a.exr", "-o", "a.png"});
   EXPECT_EQ(merged.status, 0) << merged.err;
-  EXPECT_THAT(merged.err,
-              testing::StartsWith("64 x 48 pixels, 40 samples per pixel (0:40) of 2 files, estimated error "));
-  EXPECT_THAT(merged.err, testing::EndsWith("\nwrote a.exr, a.png\n"));
+  EXPECT_THAT(merged.err, testing::MatchesRegex("64 x 48 pixels, 40 samples per pixel \\(0:40\\) of 2 files, estimated "
+                                                "error .* % \\(.* % to .* %\\)\nwrote a.exr, a.png\n"));
   expect_same_image_as(whole);
   const ProcessResult gap = run({"merge", "c.part", "a.part", "-o", "a.exr", "--quiet"});
   EXPECT_EQ(gap.status, 0);

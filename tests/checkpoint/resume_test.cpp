@@ -362,15 +362,24 @@ TEST_F(Merging, TakesWhatIsNotFinished) {
     part.checkpoint = folder_.file(name);
     return part;
   };
-  const RenderOptions a = kept("a", {0, 40}), b = kept("b", {40, 100});
-  const Outcome stopped = run_for(large, a, std::chrono::milliseconds(150));
+  const RenderOptions a = kept("a", {0, 120}), b = kept("b", {120, 160});
+  Outcome stopped;
+  {
+    Diagnostics diagnostics;
+    const auto render = Render::create(large, a, diagnostics);
+    ASSERT_NE(render, nullptr);
+    stopped.statistics = render->run([&](const RenderProgress& progress) {
+      if (progress.samples_done > 0) render->cancel();
+    });
+    stopped.image = render->image(true);
+  }
   ASSERT_TRUE(stopped.statistics.cancelled) << "it is over too soon";
   MergedRender merged;
   ASSERT_EQ(merge_renders({a.checkpoint}, true, merged).error, "");
   EXPECT_TRUE(identical(merged.image, stopped.image));
   EXPECT_EQ(merged.error.value, stopped.statistics.error.value);
   ASSERT_EQ(merged.unfinished.size(), 1u);
-  EXPECT_EQ(merged.unfinished[0].goal, 40u);
+  EXPECT_EQ(merged.unfinished[0].goal, 120u);
   EXPECT_EQ(merged.unfinished[0].samples_per_pixel, static_cast<double>(stopped.statistics.samples) / (160 * 120));
   std::uint64_t empty = 0;
   for (const float n : stopped.image.find("samples")->values) empty += n == 0;
@@ -383,7 +392,7 @@ TEST_F(Merging, TakesWhatIsNotFinished) {
   EXPECT_EQ(merged.pixels_without_samples, 0u);
   RenderOptions rest = options();
   rest.checkpoint.clear();
-  rest.samples = SampleRange{40, 100};
+  rest.samples = SampleRange{120, 160};
   const Image later = render_image(large, rest, true);
   bool any_unsampled = false;
   for (std::size_t i = 0; i < later.find("samples")->values.size(); ++i) {
@@ -395,7 +404,7 @@ TEST_F(Merging, TakesWhatIsNotFinished) {
   run_for(large, a, std::chrono::hours(1));
   ASSERT_EQ(merge_renders({b.checkpoint, a.checkpoint}, true, merged).error, "");
   EXPECT_TRUE(merged.unfinished.empty());
-  RenderOptions all = options(100);
+  RenderOptions all = options(160);
   all.checkpoint.clear();
   EXPECT_TRUE(identical(merged.image, render_image(large, all, true)));
 }
