@@ -111,7 +111,7 @@ TEST_P(Stopped, TellsATrueErrorOrNone) {
     for (const double value : channel) truth_mean += value / (3.0 * kSize * kSize);
   }
 
-  // 4 waves for each of the first samples, and as many as there are samples then.
+  // 4 waves are a sample of each pixel, as long as they take one or two, and then one is.
   constexpr int kStops = 60;
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -119,7 +119,7 @@ TEST_P(Stopped, TellsATrueErrorOrNone) {
   std::vector<double> ratios;
   for (int stop = 0; stop < kStops; ++stop) {
     Rendering rendering(*viewed, static_cast<std::uint64_t>(stop));
-    const auto waves = static_cast<std::uint64_t>(std::exp(unit(random) * std::log(400.0)));
+    const auto waves = static_cast<std::uint64_t>(std::exp(unit(random) * std::log(250.0)));
     rendering.run({.adaptive = c.adaptive}, 64, waves);
     const RelativeError error = rendering.error();
     EXPECT_EQ(error.value >= 0, rendering.least() >= 2)

@@ -119,9 +119,7 @@ std::vector<WorkPlan> plan_passes(const TileGrid& grid, SampleRange samples, Wor
     passes.emplace_back(grid, numbers, samples.first, is_first_block ? WorkPlan::Cut::groups_of_tiles : cut);
     first = numbers.end;
   };
-  for (std::uint32_t end = 1; end < grid.longest_block; end *= 2) pass_up_to(end);
-  pass_up_to(grid.longest_block);
-  pass_up_to(samples.count());
+  for (const std::uint32_t end : {1u, 2u, grid.longest_block, samples.count()}) pass_up_to(end);
   return passes;
 }
 

@@ -72,8 +72,7 @@ class WorkPlan {
 };
 
 /// The passes in which samples are rendered. The first takes one sample of every pixel, so that an image that is interrupted
-/// soon has no holes; the second another one, from when on the error of all is known; those that follow double what there
-/// is until the first block is complete.
+/// soon has no holes; the second another one, from when on the error of all is known; the third completes the first block.
 /// `cut` is that of what comes after the first block.
 std::vector<WorkPlan> plan_passes(const TileGrid& grid, SampleRange samples,
                                   WorkPlan::Cut cut = WorkPlan::Cut::groups_of_tiles);
