@@ -53,7 +53,7 @@ TEST_F(CliScene, AnOldSceneIsUpgradedAndInfoTellsHow) {
 </scene>)");
   const ProcessResult info = run({"info", "old.xml"});
   EXPECT_EQ(info.status, 0);
-  EXPECT_THAT(info.err, HasSubstr("old.xml:1:17: warning: the scene is for Mitsuba '0.5.0' and was upgraded"));
+  EXPECT_THAT(info.err, HasSubstr("old.xml:1:17: note: the scene is for Mitsuba '0.5.0' and was upgraded"));
   EXPECT_THAT(info.out, HasSubstr("upgraded from an older version of the format\n"
                                   "  old.xml:2:42: 'maxDepth' is 'max_depth'\n"
                                   "  old.xml:3:42: film 'ldrfilm' is 'hdrfilm'\n"));

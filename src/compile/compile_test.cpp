@@ -182,7 +182,7 @@ TEST(Compile, AnOldSceneIsUpgraded) {
   <emitter type="point"><point name="position" x="0" y="0" z="5"/></emitter>
 </scene>)"}});
   EXPECT_THAT(c.messages(),
-              ElementsAre("warning: the scene is for Mitsuba '0.5.0' and was upgraded; 'norrsken info' tells how",
+              ElementsAre("note: the scene is for Mitsuba '0.5.0' and was upgraded; 'norrsken info' tells how",
                           "warning: integrator 'bdpt' is 'path', which finds the same light in another way"));
   EXPECT_EQ(c.info().integrator, "path");
   EXPECT_EQ(c.info().max_depth, 7);

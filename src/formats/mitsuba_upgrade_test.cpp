@@ -40,7 +40,7 @@ void expect_same(const std::string& version, const std::string& old, const std::
   EXPECT_EQ(modern.complaints, "");
   EXPECT_EQ(
       upgraded.complaints,
-      fmt::format("room.xml:1:17: warning: the scene is for Mitsuba '{}' and was upgraded; 'norrsken info' tells how\n"
+      fmt::format("room.xml:1:17: note: the scene is for Mitsuba '{}' and was upgraded; 'norrsken info' tells how\n"
                   "    1 | <scene version=\"{}\">\n      |                 {}",
                   version, version, "^" + std::string(version.size() - 1, '~')));
 }

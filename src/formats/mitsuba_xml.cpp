@@ -148,9 +148,8 @@ class MitsubaReader {
     context_.upgrade.version = {static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
     const std::string text = quoted(trim(version.text));
     if (context_.upgrade.version.is_old() && !std::exchange(told_of_upgrade_, true))
-      diagnostics_.warning(
-          version.location(),
-          fmt::format("the scene is for Mitsuba {} and was upgraded; 'norrsken info' tells how", text));
+      diagnostics_.note(version.location(),
+                        fmt::format("the scene is for Mitsuba {} and was upgraded; 'norrsken info' tells how", text));
     if (numbers[0] > 3)
       diagnostics_.warning(version.location(),
                            fmt::format("the scene is for Mitsuba {}, which may mean other things", text), "0.x to 3.x");
