@@ -13,7 +13,9 @@ namespace {
 
 bool is_builtin(const std::string& name) {
   const auto scenes = builtin_scenes();
-  return std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& scene) { return scene.name == name; });
+  return std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& scene) {
+    return name == scene.name || name == "builtin:" + scene.name + ".xml";
+  });
 }
 
 bool any_error_names_a_file(const Diagnostics& diagnostics) {

@@ -5,11 +5,13 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <thread>
 
+#include "fuzz/sections.h"
 #include "norrsken/merge.h"
 #include "tests/end_to_end/param_name.h"
 #include "tests/end_to_end/rendering.h"
@@ -421,12 +423,17 @@ TEST_F(Merging, TakesWhatIsUneven) {
   EXPECT_TRUE(merged.unfinished.empty());
 }
 
+/// A checkpoint whose tiles have come nowhere, as the first one of a rendering that has just begun.
 TEST_F(Merging, RefusesWhatHoldsNoImageYet) {
-  RenderOptions part = options();
-  part.features = true;
-  part.checkpoint = folder_.file("early");
-  run_for(room(), part, std::chrono::microseconds(0));
-  EXPECT_EQ(complaint({part.checkpoint}), "'early' holds no image yet; run its command again");
+  fuzz::SectionFile file = fuzz::take_apart(contents(options().checkpoint));
+  std::string& progress = file.sections.at(3).content;
+  // Two ranges and a tile's size, a goal and a flag; then lists of goals, which have a length, and of progress.
+  constexpr std::size_t kGoals = 29;
+  std::uint32_t tiles = 0;
+  std::memcpy(&tiles, progress.data() + kGoals, sizeof tiles);
+  std::memset(progress.data() + kGoals + (1 + tiles + 1) * sizeof tiles, 0, tiles * sizeof tiles);
+  put(folder_.file("early"), fuzz::put_together(file));
+  EXPECT_EQ(complaint({folder_.file("early")}), "'early' holds no image yet; run its command again");
 }
 
 /// In one process as well.
