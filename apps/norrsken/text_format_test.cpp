@@ -64,5 +64,12 @@ TEST(FormatBytes, BinarySuffixes) {
   EXPECT_EQ(format_bytes(12ull << 30), "12 GiB");
 }
 
+TEST(ErrorText, SaysWhyThereIsNone) {
+  EXPECT_EQ(error_text({0.0945, 0.091, 0.098}, 64), "estimated error 9.45 % (9.10 % to 9.80 %)");
+  EXPECT_EQ(error_text({}, 1.3), "error not known before every pixel has two samples");
+  EXPECT_EQ(error_text({}, 16), "error unknown: no light seen");
+  EXPECT_EQ(error_text({0, 0, 0}, 16), "no noise seen") << "not 0.00 %: what is rare may come yet";
+}
+
 }  // namespace
 }  // namespace norrsken::cli
