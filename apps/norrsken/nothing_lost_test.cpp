@@ -39,7 +39,7 @@ class NothingLost : public Cli {
   void write_scene() const {
     write("scene.xml", kScene);
     write("part.xml", kPart);
-    write("mesh.obj", "v 0 0 4\nv 1 0 4\nv 0 1 4\nf 1 2 3\n");
+    write("mesh.obj", "v 0 0 4\nv 1 0 4\nv 0 1 4\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
     Image image;
     image.width = image.height = 2;
     for (const char* name : {"R", "G", "B"}) image.channel(name).values.assign(4, 0.5f);

@@ -97,7 +97,7 @@ TEST(RoughPlasticHost, RefusesWhatIsWrong) {
   EXPECT_THAT(messages(R"(<string name="distribution" value="phong"/>)"),
               ElementsAre(HasSubstr("error: 'distribution' is 'phong'")));
   EXPECT_THAT(messages(R"(<float name="alpha_u" value="0.1"/>)"),
-              ElementsAre(HasSubstr("error: unused parameter 'alpha_u' of bsdf 'roughplastic'")));
+              ElementsAre(HasSubstr("error: bsdf 'roughplastic' has one roughness")));
   EXPECT_THAT(
       messages(R"(<float name="int_ior" value="1.3"/><float name="ext_ior" value="1.3"/>)"),
       ElementsAre("error: the indices of refraction of both sides are the same [int_ior and ext_ior that differ]"));

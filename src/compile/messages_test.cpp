@@ -101,10 +101,9 @@ TEST(Messages, OnlyTrianglesWithoutArea) {
     <string name="filename" value="line.obj"/>
   </shape>)",
                        {{"line.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n"}}),
-            R"(scene.xml:9:36: error: no triangle of the shape has an area
+            R"(scene.xml:9:36: warning: no triangle of the shape has an area, nothing of it is drawn
     9 |     <string name="filename" value="line.obj"/>
       |                                    ^~~~~~~~
-accepted: triangles whose corners do not lie on one line
 )");
 }
 
@@ -125,10 +124,9 @@ TEST(Messages, RectangleWithoutArea) {
       <scale x="0"/>
     </transform>
   </shape>)"),
-            R"(scene.xml:9:5: error: no triangle of the shape has an area
+            R"(scene.xml:9:5: warning: no triangle of the shape has an area, nothing of it is drawn
     9 |     <transform name="to_world">
       |     ^~~~~~~~~~
-accepted: triangles whose corners do not lie on one line
 )");
 }
 
