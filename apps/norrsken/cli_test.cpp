@@ -254,6 +254,12 @@ TEST_F(Cli, InterruptSavesAndSays) {
     EXPECT_GT(sum, 0);
     fs::remove(folder_ / "part.exr");
   }
+  // Where the kernel kills without a signal first, as `ulimit -t 3` has it.
+  const ProcessResult limited =
+      run(std::vector<std::string>{"render", "hexagon_room", "-o", "part.exr"} + kEndless, {.processor_seconds = 3});
+  EXPECT_EQ(limited.status, 77) << limited.err;
+  EXPECT_THAT(limited.err, HasSubstr("wrote part.exr"));
+  fs::remove(folder_ / "part.exr");
   const auto events = parse_lines(
       run(std::vector<std::string>{"render", "hexagon_room", "--json"} + kEndless, {.signals = {SIGINT}}).out);
   EXPECT_EQ(events.back()["interrupted"], true);

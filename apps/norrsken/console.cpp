@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -26,6 +28,15 @@ std::string emphasize(std::string text, std::string_view word, std::string_view 
 }
 
 }  // namespace
+
+void leave_time_to_save() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_max == RLIM_INFINITY || limit.rlim_cur < limit.rlim_max) return;
+  const rlim_t margin = std::clamp<rlim_t>(limit.rlim_max / 20, 2, 30);
+  if (limit.rlim_max <= margin) return;
+  limit.rlim_cur = limit.rlim_max - margin;
+  setrlimit(RLIMIT_CPU, &limit);
+}
 
 void prepare_standard_files() {
   std::signal(SIGPIPE, SIG_IGN);

@@ -26,6 +26,10 @@ class Failure : public std::runtime_error {
 /// the place of the standard output.
 void prepare_standard_files();
 
+/// A limit on processor time that kills at once, as shells set it, is preceded by SIGXCPU: by a twentieth of the limit, 2 s
+/// at least and 30 s at most.
+void leave_time_to_save();
+
 /// Whether stderr is a terminal on which a line can be rewritten (not `TERM=dumb`).
 bool stderr_is_terminal();
 /// Columns of the terminal behind stderr; 80 if it does not say.

@@ -88,6 +88,7 @@ ExitStatus run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace norrsken::cli;
   prepare_standard_files();
+  leave_time_to_save();
   ExitStatus status = ExitStatus::internal;
   try {
     status = run(argc, argv);

@@ -48,6 +48,10 @@ Channel open_terminal() {
     const rlimit limit{options.largest_file, options.largest_file};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (options.processor_seconds > 0) {
+    const rlimit limit{options.processor_seconds, options.processor_seconds};
+    setrlimit(RLIMIT_CPU, &limit);
+  }
   if (options.address_space > 0) {
     const rlimit limit{options.address_space, options.address_space};
     setrlimit(RLIMIT_AS, &limit);

@@ -21,6 +21,7 @@ struct ProcessOptions {
   bool terminal = false;                        ///< stderr is a terminal of 80 columns (and then arrives in `err`)
   std::string stdout_file = {};                 ///< where stdout goes in place of `out`
   std::uint64_t largest_file = 0;               ///< bytes beyond which no file grows; 0: without limit
+  std::uint64_t processor_seconds = 0;          ///< after which it is killed; 0: without limit
   std::uint64_t address_space = 0;              ///< bytes of addresses that it may have; 0: without limit
   std::vector<int> signals = {};                ///< sent one after the other ...
   std::chrono::milliseconds signal_delay{700};  ///< ... each after this time, ...

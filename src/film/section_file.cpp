@@ -94,6 +94,28 @@ bool write_contents(int file, std::uint32_t version, std::span<const Section> se
   return true;
 }
 
+/// Whether something stands there that no checkpoint can have left: it is somebody's, and not written over.
+bool is_somebodys(const std::string& path) {
+  struct stat status {};
+  if (lstat(path.c_str(), &status) != 0) return false;
+  if (!S_ISREG(status.st_mode)) return true;
+  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  std::array<char, kMagic.size()> begin{};
+  const ssize_t bytes = file ? read(file.get(), begin.data(), begin.size()) : -1;
+  if (bytes < 0) return true;
+  // A power cut may have left zeros, or fewer bytes.
+  const std::array<char, kMagic.size()> zeros{};
+  const auto size = static_cast<std::size_t>(bytes);
+  return !std::equal(begin.begin(), begin.begin() + size, kMagic.begin()) &&
+         !std::equal(begin.begin(), begin.begin() + size, zeros.begin());
+}
+
+IoStatus check_way(const std::string& path) {
+  for (const std::string& name : {temporary_of(path), older_generation_of(path)})
+    if (is_somebodys(name)) return write_failure(path, "'" + name + "' is in the way, which is no checkpoint");
+  return {};
+}
+
 /// Says in `errno` why not.
 int open_temporary(const std::string& path) {
   // What a killed writing has left is written over.
@@ -140,6 +162,7 @@ std::string older_generation_of(const std::string& path) { return path + ".1"; }
 IoStatus write_sections(const std::string& path, std::uint32_t version, std::span<const Section> sections,
                         OlderGeneration older) {
   if (IoStatus status = check_target(path); !status) return status;
+  if (IoStatus status = check_way(path); !status) return status;
   FileDescriptor file(open_temporary(path));
   if (!file) return write_failure(path, error_text(errno));
   const bool written = write_contents(file.get(), version, sections) && fsync(file.get()) == 0;
@@ -151,9 +174,7 @@ IoStatus write_sections(const std::string& path, std::uint32_t version, std::spa
 
 IoStatus check_sections_writable(const std::string& path) {
   if (IoStatus status = check_target(path); !status) return status;
-  struct stat status {};
-  if (lstat(temporary_of(path).c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-    return write_failure(path, "'" + temporary_of(path) + "' is in the way");
+  if (IoStatus status = check_way(path); !status) return status;
   return FileLock(path).status();
 }
 

@@ -157,10 +157,28 @@ TEST_F(SectionFile, AFullDiskCostsNeitherGeneration) {
 }
 
 TEST_F(SectionFile, WhatIsLeftOfAKilledWritingIsNoHindrance) {
-  std::ofstream(path_ + ".tmp") << "half of a file, and longer than the new one: " << std::string(1000, 'x');
-  ASSERT_TRUE(write("hello", "you"));
-  EXPECT_EQ(read(path_), "hello|you");
-  EXPECT_THAT(files(), testing::ElementsAre("file"));
+  for (const std::string& left : {"\x89Norrsk\n half of a file, and longer than the new one: " + std::string(1000, 'x'),
+                                  std::string("\x89No"), std::string(512, '\0'), std::string()}) {
+    std::ofstream(path_ + ".tmp") << left;
+    ASSERT_TRUE(write("hello", "you"));
+    EXPECT_EQ(read(path_), "hello|you");
+    EXPECT_THAT(files(), testing::ElementsAre("file"));
+    fs::remove(path_);
+  }
+}
+
+TEST_F(SectionFile, WhatIsNoCheckpointIsNotWrittenOver) {
+  for (const std::string suffix : {".tmp", ".1"}) {
+    std::ofstream(path_ + suffix) << "a thesis";
+    const std::string complaint =
+        "cannot write '" + path_ + "': '" + path_ + suffix + "' is in the way, which is no checkpoint";
+    EXPECT_EQ(check_sections_writable(path_).error, complaint);
+    EXPECT_EQ(write("hello", "you").error, complaint);
+    std::string kept;
+    std::getline(std::ifstream(path_ + suffix), kept);
+    EXPECT_EQ(kept, "a thesis");
+    fs::remove(path_ + suffix);
+  }
 }
 
 TEST_F(SectionFile, RefusesWhatCannotBeWritten) {

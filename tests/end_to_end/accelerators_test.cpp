@@ -120,7 +120,7 @@ class Accelerators : public SceneFolder, public ::testing::WithParamInterface<Ca
 
 TEST_P(Accelerators, ShowTheSame) {
   write_scene();
-  const Scene scene = load(path("scene.xml"));
+  const Scene scene = load(path("scene.xml"), {}, Warnings::expected);
   const auto render = [&](const char* accelerator) {
     // Every sample at the middle of a cell would meet the diagonal: Sobol' points do not.
     return render_image(scene, {.samples_per_pixel = 16, .threads = kThreads, .accelerator = accelerator}, true);
@@ -144,7 +144,7 @@ TEST_P(Accelerators, ShowTheSame) {
 
 TEST_P(Accelerators, MergeWhatDiffersInNothing) {
   write_scene();
-  const Scene scene = load(path("scene.xml"));
+  const Scene scene = load(path("scene.xml"), {}, Warnings::expected);
   EXPECT_EQ(merge_triangles(scene.tables().tables).size(), GetParam().polygons);
 }
 

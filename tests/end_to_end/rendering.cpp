@@ -16,10 +16,10 @@ namespace {
 
 }  // namespace
 
-Scene load(const std::string& path_or_name, const LoadOptions& options) {
+Scene load(const std::string& path_or_name, const LoadOptions& options, Warnings warnings) {
   Diagnostics diagnostics;
   auto scene = Scene::load(path_or_name, options, diagnostics);
-  if (!scene || !diagnostics.all().empty()) fail(diagnostics);
+  if (!scene || (warnings == Warnings::unexpected && !diagnostics.all().empty())) fail(diagnostics);
   return *scene;
 }
 

@@ -16,8 +16,11 @@ using SceneParameters = std::vector<std::pair<std::string, std::string>>;
 /// Threads of every rendering that is not about threads.
 inline constexpr int kThreads = 2;
 
+/// Whether a scene may be one that is warned of.
+enum class Warnings { unexpected, expected };
+
 /// Loads a scene by name, or a file of tests/scenes. Throws std::runtime_error with the complaints if there are any.
-Scene load(const std::string& path_or_name, const LoadOptions& options = {});
+Scene load(const std::string& path_or_name, const LoadOptions& options = {}, Warnings warnings = Warnings::unexpected);
 /// A file of tests/scenes.
 Scene load_test_scene(const std::string& file, const SceneParameters& parameters = {});
 Scene load_test_scene_with(const std::string& file, const LoadOptions& options);
