@@ -111,7 +111,8 @@ void print_as_text(const std::string& scene, const SceneInfo& info) {
 /// Images are what they are: nothing is set in them.
 ExitStatus tell_of_image(const Arguments& arguments) {
   const SceneArguments& scene = arguments.scene;
-  if (!scene.definitions.empty() || scene.integrator || scene.sampler || !scene.size.empty() || scene.spp > 0)
+  if (!scene.definitions.empty() || scene.integrator || scene.sampler || !scene.size.empty() || scene.spp > 0 ||
+      scene.sensor)
     throw Failure(ExitStatus::usage,
                   fmt::format("'{}' is an image: options of scenes have no place beside it", scene.scene));
   return tell_image(scene.scene, arguments.json);

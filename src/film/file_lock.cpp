@@ -34,7 +34,13 @@ std::string FileLock::take() {
   for (int attempt = 0; attempt < 100; ++attempt) {
     // For writing, without which there are no exclusive locks on NFS.
     FileDescriptor file(open(name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
-    if (!file) return std::generic_category().message(errno);
+    if (!file) {
+      const int error = errno;
+      struct stat there {};
+      // Of a folder that is missing or closed the caller's own name says enough.
+      const std::string in_the_way = lstat(name_.c_str(), &there) == 0 ? "'" + name_ + "': " : "";
+      return in_the_way + std::generic_category().message(error);
+    }
     const int error = flock(file.get(), LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
     // Another process may have removed it between opening and locking: then it locks nobody out.
     struct stat ours {};

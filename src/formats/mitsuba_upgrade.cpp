@@ -118,7 +118,7 @@ void MitsubaUpgrade::upgrade(Node& node, SceneVersion of) {
   if (node.kind == "texture") upgrade_texture(node);
   if (node.kind == "sensor") upgrade_sensor(node, of);
   if (node.kind == "emitter") upgrade_emitter(node);
-  if (node.kind == "shape") upgrade_shape(node);
+  if (node.kind == "shape") upgrade_shape(node, of);
 }
 
 void MitsubaUpgrade::rename_parameters(Node& node, SceneVersion of) {
@@ -239,7 +239,11 @@ void MitsubaUpgrade::upgrade_emitter(Node& node) {
   }
 }
 
-void MitsubaUpgrade::upgrade_shape(Node& node) {
+void MitsubaUpgrade::upgrade_shape(Node& node, SceneVersion of) {
+  if (of.is_before(3) && node.plugin == "obj" && !has(node, "flip_tex_coords")) {
+    add_property(node, "flip_tex_coords", "boolean", false);
+    note(node.location, "'flip_tex_coords' is false, as v was not turned before 0.3");
+  }
   const bool has_material = !children_of_kind(node, "bsdf").empty() || !children_of_kind(node, "emitter").empty();
   if (node.plugin != "obj" || has_material || told_of_materials_) return;
   told_of_materials_ = true;

@@ -64,7 +64,7 @@ class MitsubaUpgrade {
   void upgrade_film(Node& node, SceneVersion version);
   void upgrade_sensor(Node& node, SceneVersion version);
   void upgrade_emitter(Node& node);
-  void upgrade_shape(Node& node);
+  void upgrade_shape(Node& node, SceneVersion of);
 
   struct OldNode {
     std::shared_ptr<Node> node;

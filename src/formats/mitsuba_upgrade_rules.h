@@ -49,6 +49,7 @@ struct LeftOutRule {
 inline constexpr LeftOutRule kLeftOut[] = {
     {"bsdf", "*", "specular_sampling_weight", "it changes noise alone"},
     {"emitter", "envmap", "cache", "nothing is cached"},
+    {"emitter", "envmap", "gamma", "the image's own format decides it"},
     {"film", "*", "attach_log", "no log is written into images"},
     {"film", "ldrfilm pngfilm mfilm", "file_format", "the name of the output decides it"},
     {"film", "*", "tonemap_method gamma exposure key burn", "tone mapping is chosen when the image is written"},

@@ -327,6 +327,9 @@ TEST(MitsubaUpgrade, Shapes) {
   expect_same_but("0.6.0", R"(<shape type="obj"/>)", R"(<shape type="obj"/>)", "a shape 'obj' without a bsdf is grey");
   expect_same("0.6.0", R"(<bsdf type="diffuse" id="a"/><shape type="obj"><ref id="a"/></shape>)",
               R"(<bsdf type="diffuse" id="a"/><shape type="obj"><ref id="a"/></shape>)");
+  const std::string turned =
+      R"(<shape type="obj"><boolean name="flip_tex_coords" value="false"/>)" + diffuse + "</shape>";
+  expect_same("0.2.1", R"(<shape type="obj">)" + diffuse + "</shape>", turned);
   expect_same("0.2.0", R"(<shape type="sphere"><boolean name="inverted" value="true"/></shape>
                           <shape type="cylinder"><point name="p1" x="1" y="0" z="0"/><point name="p2" x="2" y="0" z="0"/></shape>)",
               R"(<shape type="sphere"><boolean name="flip_normals" value="true"/></shape>

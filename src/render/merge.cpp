@@ -171,7 +171,7 @@ IoStatus merge_renders(const std::vector<std::string>& files, bool layers, Merge
     const double mean = samples_per_pixel(stored);
     merged.samples_per_pixel += mean;
     const bool is_finished = std::ranges::equal(stored.progress, stored.goal.of_tile, std::ranges::greater_equal());
-    if (!is_finished) merged.unfinished.push_back({parts[i].path, mean, stored.goal.most()});
+    if (!is_finished) merged.unfinished.push_back({parts[i].path, mean, stored.goal.mean});
   }
   merged.pixels_without_samples = pixels_without_samples(parts);
 

@@ -20,6 +20,8 @@ constexpr BaseParameter kTable[] = {
     {"integrator", "depth", "hide_emitters", Type::boolean, ""},
     {"integrator", "moment", "hide_emitters", Type::boolean, "hide_emitters of the integrator inside"},
     {"integrator", "volpathmis", "use_spectral_mis", Type::boolean, ""},
+    {"scene", "", "allow_thread_reordering", Type::boolean, ""},
+    {"scene", "", "embree_use_robust_intersections", Type::boolean, ""},
     {"sensor", "", "focus_distance", Type::number, "sensor 'thinlens'"},
     {"sensor", "", "shutter_close", Type::number, ""},
     {"sensor", "", "shutter_open", Type::number, ""},
