@@ -253,7 +253,9 @@ void SceneArguments::add_to(CLI::App& command) {
       .add_option("--sensor", sensor,
                   "Which of the scene's sensors: its number from 0 (default) in the file's order, or its id")
       ->type_name("N|ID");
-  command.add_option("--integrator", integrator, "Integrator in place of the scene's: path, direct, whitted, ptracer")
+  command
+      .add_option("--integrator", integrator,
+                  "Integrator in place of the scene's: path, direct, whitted, ptracer, depth")
       ->type_name("NAME");
   command
       .add_option("--sampler", sampler,

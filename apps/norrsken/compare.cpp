@@ -76,7 +76,7 @@ void print_as_text(const Comparison& comparison) {
   tell_nan(comparison.nan_b, "reference");
   const auto& z = comparison.z_test;
   if (!z) {
-    print_line("z-test  none: neither image has variance layers (norrsken render --layers)");
+    print_line("z-test  none: no pixel has a known variance (norrsken render --layers, two samples at least)");
     return;
   }
   print_line(

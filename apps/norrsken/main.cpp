@@ -42,7 +42,7 @@ ExitStatus run(int argc, char** argv) {
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.footer(
       "Examples:\n"
-      "  norrsken render hexagon_room -Dshadow_rays=1 -o room.png --spp 64\n"
+      "  norrsken render hexagon_room -Dshadow_rays=1 --spp 64 --exposure 1.5 -o room.png\n"
       "  norrsken render hexagon_room -Dlight=point -Dshadow_rays=1 -o room.exr -o room.png\n"
       "  norrsken figures -o figures --quick\n\n"
       "'norrsken COMMAND --help' or 'norrsken help COMMAND' tells the options of a command.\n"

@@ -10,6 +10,7 @@ namespace norrsken {
 namespace {
 
 constexpr double kSignificance = 0.01;
+constexpr double kRounding = 1e-6;  ///< of a conversion between colour spaces in single precision, relative
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The z-score of a difference of the given variance; without variance any difference is infinitely many deviations.
@@ -92,7 +93,10 @@ std::optional<Comparison::ZTest> z_test(int width, const Planes& a, const Planes
         noise_sum += noise.at(i);
         variance = std::max(variance, noise.around(i));
       }
-      const double difference = difference_of((*a[c])[i], (*b[c])[i]), z = z_score(difference, variance);
+      const double difference = difference_of((*a[c])[i], (*b[c])[i]);
+      // Where no noise is, what another encoding of the same colour rounds off is no difference.
+      const double rounding = kRounding * std::max(std::abs((*a[c])[i]), std::abs((*b[c])[i]));
+      const double z = variance == 0 && std::abs(difference) <= rounding ? 0 : z_score(difference, variance);
       scores.push_back(z);
       difference_sum += difference;
       if (variance > 0) {

@@ -213,7 +213,7 @@ norrsken_mutant(replicates_of_equal_size film/sample_set.h
   IN rendering BY "Film.UnknownWith*"
   SAYING "The difference between film.estimate.0, 0..variance and 1.0 is")
 norrsken_mutant(variance_of_one_replicate_too_many film/pixel_estimate.h
-  "(replicates - 1)" "replicates"
+  "(count * count - squares)" "(count * count)"
   IN rendering BY "Film.VarianceFromReplicates"
   SAYING "The difference between e.variance and 14.0 / 12.0 is")
 norrsken_mutant(unnormalised_filter rfilter/filter.h
