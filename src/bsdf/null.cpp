@@ -1,6 +1,8 @@
 // null: host side.
 //
 // Parameters: none. Nothing is stored.
+// Departures: emitters on such surfaces are seen, as by Mitsuba's `volpath` and `direct`; its `path` sees only what they
+// light.
 #include "compile/plugins.h"
 
 namespace norrsken {

@@ -2,7 +2,8 @@
 // Parameters  none
 // Measure     delta
 // Source      none needed
-// Departures  none
+// Departures  Mitsuba's `path` does not see emitters on such surfaces from the camera and in mirrors, though it does what they
+//             light; here they are seen, as by Mitsuba's `volpath` and `direct`
 #pragma once
 
 #include "bsdf/bsdf.h"

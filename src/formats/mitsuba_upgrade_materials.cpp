@@ -135,7 +135,10 @@ void MitsubaUpgrade::upgrade_texture(Node& node) {
   if (node.plugin == "vertexcolors") {
     node.plugin = "mesh_attribute";
     add_property(node, "name", "string", std::string("vertex_color"));
-    note(node.plugin_location, "texture 'vertexcolors' is the 'mesh_attribute' vertex_color");
+    warn(node.plugin_location,
+         "texture 'vertexcolors' is the 'mesh_attribute' vertex_color, of linear values; Mitsuba 0.6 took those of PLY "
+         "files "
+         "as sRGB unless 'srgb' was false");
   }
   if (node.plugin == "bitmap") upgrade_bitmap(node);
   if (node.plugin == "scale") upgrade_scale_texture(node);

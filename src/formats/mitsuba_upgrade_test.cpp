@@ -210,8 +210,9 @@ TEST(MitsubaUpgrade, TexturesThatScale) {
 TEST(MitsubaUpgrade, NormalMapsAndVertexColours) {
   expect_same("0.6.0", R"(<bsdf type="normalmap"><texture type="bitmap"/><bsdf type="diffuse"/></bsdf>)",
               R"(<bsdf type="normalmap"><texture type="bitmap" name="normalmap"/><bsdf type="diffuse"/></bsdf>)");
-  expect_same("0.6.0", R"(<texture type="vertexcolors"/>)",
-              R"(<texture type="mesh_attribute"><string name="name" value="vertex_color"/></texture>)");
+  expect_same_but("0.6.0", R"(<texture type="vertexcolors"/>)",
+                  R"(<texture type="mesh_attribute"><string name="name" value="vertex_color"/></texture>)",
+                  "texture 'vertexcolors' is the 'mesh_attribute' vertex_color, of linear values");
 }
 
 TEST(MitsubaUpgrade, ConductorsAreOfCopperUnlessTheySayOtherwise) {

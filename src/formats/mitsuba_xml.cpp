@@ -128,7 +128,8 @@ class MitsubaReader {
       return fail(document.location(root), fmt::format("the root element is <{}>", name),
                   top ? "<scene>" : "<scene>, or an object such as <bsdf>");
     }
-    const AttributeRules rules = top ? AttributeRules{{"version"}, {}} : AttributeRules{{}, {"version"}};
+    const AttributeRules rules = top ? AttributeRules{{"version"}, {"id", "name", "type"}}
+                                     : AttributeRules{{}, {"version", "id", "name", "type"}};
     const Element scene = context_.open(document, root, rules);
     if (top) into.node.location = scene.location;
     if (const Literal* version = scene.find("version"); version && !check_version(*version)) return;

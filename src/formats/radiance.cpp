@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/text.h"
 #include "color/srgb.h"
 #include "formats/bytes.h"
 #include "formats/image_size.h"
@@ -135,7 +136,7 @@ std::string read_radiance(std::string_view contents, RasterImage& image) {
     const auto line = take_line(left);
     if (!line) return "its header has no end";
     if (line->empty()) break;
-    if (line->starts_with("FORMAT=")) format = line->substr(7);
+    if (line->starts_with("FORMAT=")) format = trim(line->substr(7));
   }
   if (format != kRgbe && format != kXyze) {
     return "its FORMAT is neither " + std::string(kRgbe) + " nor " + std::string(kXyze);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -277,7 +278,13 @@ RelativeError Crew::relative_error() {
   const std::uint64_t samples = samples_done();
   const auto now = std::chrono::steady_clock::now();
   if (now - last_look_ < std::chrono::seconds(1) || samples < last_error_samples_ + last_error_samples_ / 16 + 1) {
-    return last_error_;
+    // Meanwhile it falls with the root of the samples.
+    RelativeError error = last_error_;
+    if (error.value > 0) {
+      const double factor = std::sqrt(static_cast<double>(last_error_samples_) / static_cast<double>(samples));
+      error.value *= factor, error.low *= factor, error.high *= factor;
+    }
+    return error;
   }
   last_look_ = now;
   last_error_samples_ = samples;

@@ -393,8 +393,12 @@ void Parameters::finish() {
   }
   for (const Node::Child& child : node_.children) {
     if (asked_kinds_.contains(child.node->kind) || (!child.name.empty() && asked_names_.contains(child.name))) continue;
-    diagnostics_.error(child.location, fmt::format("unused {} in {}", name_of(*child.node), name_of(node_)),
-                       kinds.empty() ? "no children" : join(kinds));
+    const std::string named = child.name.empty() ? "" : fmt::format(" named {}", quoted(child.name));
+    const std::string accepted = kinds.empty() && !names.empty() ? "the names " + join(names) : join(kinds);
+    diagnostics_.error(child.location,
+                       fmt::format("unused {}{} in {}{}", name_of(*child.node), named, name_of(node_),
+                                   child.name.empty() ? "" : did_you_mean(child.name, known)),
+                       accepted.empty() ? "no children" : accepted);
   }
 }
 

@@ -120,13 +120,12 @@ NORRSKEN_INLINE void set_place(SurfacePoint& s, Vec3f& shading, Float& scale, co
   set_parametrization(s, {p.uv, p.dp_du, p.dp_dv}, m);
 }
 
-/// Of triangles; without coordinates of their own they are the barycentric ones, and the tangents any frame around the
-/// normal, as in Mitsuba.
+/// Of triangles; without coordinates of their own they are the barycentric ones, whose tangents are the edges, and where
+/// those that they have are the same everywhere any frame around the normal, both as in Mitsuba.
 inline Parametrization parametrize_triangle(const SceneView& scene, TrianglePoint t, Vec3f normal, UInt shape,
                                             Mask active) {
   Vec2f uv = t.barycentric;
-  const Frame any_frame = make_frame(normal);
-  Vec3f dp_du = any_frame.s, dp_dv = any_frame.t;
+  Vec3f dp_du = t.e1, dp_dv = t.e2;
   if (scene.texcoords != nullptr) {
     const auto* shapes = reinterpret_cast<const float*>(scene.shapes);
     const Mask mapped = active & (gather_uint(shapes + 4, shape_index(shape), active) != UInt(0u));
@@ -144,8 +143,9 @@ inline Parametrization parametrize_triangle(const SceneView& scene, TrianglePoin
     const Float determinant = fms(d1.x, d2.y, d1.y * d2.x);
     const Mask regular = mapped & (determinant != Float(0.0f));
     const Float inv = Float(1.0f) / determinant;
-    dp_du = select(regular, fma(t.e1, d2.y, t.e2 * -d1.y) * inv, dp_du);
-    dp_dv = select(regular, fma(t.e2, d1.x, t.e1 * -d2.x) * inv, dp_dv);
+    const Frame any_frame = make_frame(normal);
+    dp_du = select(mapped, select(regular, fma(t.e1, d2.y, t.e2 * -d1.y) * inv, any_frame.s), dp_du);
+    dp_dv = select(mapped, select(regular, fma(t.e2, d1.x, t.e1 * -d2.x) * inv, any_frame.t), dp_dv);
   }
   return {uv, dp_du, dp_dv};
 }

@@ -181,6 +181,22 @@ void expect_sphere_coordinates(const Reader& read, const Vec& center, const std:
   EXPECT_GT(hits, 100);
 }
 
+TEST_F(Layers, TrianglesWithoutCoordinatesHaveTheirEdgesForTangents) {
+  write("m.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n");
+  const Image image = render(aov("du:dp_du,dv:dp_dv,s:shape_index") + camera(kSize) +
+                                 R"(<shape type="obj"><string name="filename" value="m.obj"/></shape>)" + kLight,
+                             {.samples_per_pixel = 1});
+  const Reader read{image};
+  int hits = 0;
+  for (std::size_t i = 0; i < std::size_t{kSize} * kSize; ++i) {
+    if (read("s.I", i) == 0) continue;
+    ++hits;
+    expect_vec(read.vec("du", i), {2, 0, 0}, 1e-5, "dp/du");
+    expect_vec(read.vec("dv", i), {2, 2, 0}, 1e-5, "dp/dv");
+  }
+  EXPECT_GT(hits, 20);
+}
+
 const std::string kSphereLayers = aov("p:position,t:uv,du:dp_du,dv:dp_dv,s:shape_index");
 // Rotated about x by 90 degrees, then about z by 30.
 const double kCos = std::sqrt(0.75), kSin = 0.5;
