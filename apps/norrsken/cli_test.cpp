@@ -55,7 +55,7 @@ TEST_F(Cli, TheFirstExamplesOfTheHelpAreQuick) {
     std::string word;
     words >> word;  // render
     while (words >> word && word != "writes") {
-      if (word == "-o")
+      if (word == "-o" || word == "--exposure")
         words >> word;
       else
         example.push_back(word);

@@ -20,7 +20,7 @@ TEST(RootErrors, NoVersion) {
             R"(room.xml:1:1: error: <scene> needs an attribute 'version'
     1 | <scene>
       | ^~~~~~
-accepted: version)");
+accepted: version, id, name, type)");
 }
 
 TEST(RootErrors, NoSuchVersion) {

@@ -233,7 +233,7 @@ TEST_F(ParametersTest, UnusedChildrenAreErrors) {
   EXPECT_EQ(p.children("bsdf").size(), 1u);
   p.finish();
   EXPECT_EQ(complaint(),
-            "4: unused texture 'bitmap' in bsdf 'diffuse' (accepted: bsdf); "
+            "4: unused texture 'bitmap' named 'reflectance' in bsdf 'diffuse' (accepted: bsdf); "
             "4: unused emitter 'area' in bsdf 'diffuse' (accepted: bsdf)");
 }
 
@@ -345,8 +345,8 @@ TEST_F(ParametersTest, TexturesAreToldFromNodesOfOneValue) {
   EXPECT_EQ(p.texture("none"), nullptr);
   p.finish();
   EXPECT_EQ(complaint(),
-            "4: unused texture 'rawconstant' in bsdf 'diffuse' (accepted: no children); "
-            "4: unused bsdf 'diffuse' in bsdf 'diffuse' (accepted: no children)");
+            "4: unused texture 'rawconstant' named 'alpha' in bsdf 'diffuse' (accepted: the names reflectance); "
+            "4: unused bsdf 'diffuse' named 'inside' in bsdf 'diffuse' (accepted: the names reflectance)");
 }
 
 TEST_F(ParametersTest, AChildInPlaceOfAValueIsNamedOnce) {

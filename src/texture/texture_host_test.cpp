@@ -307,7 +307,8 @@ TEST(Textures, UnknownAndMisplacedOnesAreRefused) {
   EXPECT_THAT(compile_texture(R"(<texture name="reflectance" type="volume"/>)").messages(),
               ElementsAre("error: texture 'volume' is not supported yet [bitmap, checkerboard, mesh_attribute]"));
   EXPECT_THAT(compile_texture(R"(<texture name="reflectence" type="checkerboard"/>)").messages(),
-              ElementsAre("error: unused texture 'checkerboard' in bsdf 'diffuse' [no children]"));
+              ElementsAre("error: unused texture 'checkerboard' named 'reflectence' in bsdf 'diffuse', did you mean "
+                          "'reflectance'? [the names reflectance]"));
 }
 
 // By reference, and where nobody refers to it.
