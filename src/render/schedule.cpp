@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -16,6 +17,8 @@ constexpr std::uint32_t kBlock = 16, kSmallBlock = kReplicates;
 constexpr std::size_t kFewestTiles = 64;
 /// No tile gets more than so many times the mean: spots of noise must not draw all samples to their surroundings.
 constexpr std::uint32_t kGreatestShare = 16;
+/// So many times its standard error has to be gained by uneven samples, or they are even.
+constexpr double kSureGain = 1.0;
 
 /// Of what a prediction says, so that it comes true.
 constexpr double kTimeMargin = 0.97;
@@ -155,6 +158,27 @@ std::vector<double> deviations_around(const TileGrid& grid, const std::vector<do
   return deviations;
 }
 
+/// The tiles for which it is sure that `uneven` samples leave less variance than `even` ones. Variances are not those that
+/// `uneven` follows, which are of the tiles around, so that the gain is right on average; its error is that of its terms,
+/// which are independent. Where noise is of rare and bright paths, few tiles carry all of the gain: nothing is sure. A tile's
+/// own term is left out for the tile itself.
+std::vector<bool> sure_of_gain(const TileGrid& grid, const std::vector<double>& variances, const TileProgress& even,
+                               const TileProgress& uneven) {
+  double sum = 0, squares = 0;
+  std::vector<double> gains(variances.size());
+  for (std::size_t tile = 0; tile < gains.size(); ++tile) {
+    gains[tile] = static_cast<double>(grid.pixels_of(tile)) * variances[tile] * (1.0 / even[tile] - 1.0 / uneven[tile]);
+    sum += gains[tile];
+    squares += gains[tile] * gains[tile];
+  }
+  std::vector<bool> sure(gains.size());
+  for (std::size_t tile = 0; tile < gains.size(); ++tile) {
+    const double square = std::max(squares - gains[tile] * gains[tile], 0.0);
+    sure[tile] = sum - gains[tile] > kSureGain * std::sqrt(square);
+  }
+  return sure;
+}
+
 }  // namespace
 
 SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const SampleGoal& reached, std::uint32_t mean) {
@@ -177,27 +201,34 @@ SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const Sample
   }
   const double mean_deviation = deviation_sum / pixels;
   const double most = std::min(static_cast<double>(kGreatestShare) * mean, 1e9);
-  const auto share = [&](std::size_t tile, double scale) {
-    const double samples = std::min(scale * (mean_deviation + deviations[tile]), most);
-    return std::max(reached.of_tile[tile], round_down(static_cast<std::uint32_t>(samples) + kBlock / 2, kBlock));
-  };
-
-  // The greatest scale whose samples are no more than asked for.
-  const auto cost = [&](double scale) {
-    double samples = 0;
-    for (std::size_t tile = 0; tile < tiles; ++tile)
-      samples += static_cast<double>(grid.pixels_of(tile)) * share(tile, scale);
+  const auto allocate = [&](const std::vector<bool>& is_uneven) {
+    const auto share = [&](std::size_t tile, double scale) {
+      const double part = mean_deviation + (is_uneven[tile] ? deviations[tile] : mean_deviation);
+      const auto samples = static_cast<std::uint32_t>(std::min(scale * part, most));
+      return std::max(reached.of_tile[tile], round_down(samples + kBlock / 2, kBlock));
+    };
+    // The greatest scale whose samples are no more than asked for.
+    const auto cost = [&](double scale) {
+      double samples = 0;
+      for (std::size_t tile = 0; tile < tiles; ++tile)
+        samples += static_cast<double>(grid.pixels_of(tile)) * share(tile, scale);
+      return samples;
+    };
+    double low = 0, high = mean / mean_deviation;
+    while (cost(high) < budget && high < 1e300) high *= 2;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (low + high) / 2;
+      (cost(middle) <= budget ? low : high) = middle;
+    }
+    TileProgress samples(tiles);
+    for (std::size_t tile = 0; tile < tiles; ++tile) samples[tile] = share(tile, low);
     return samples;
   };
-  double low = 0, high = mean / mean_deviation;
-  while (cost(high) < budget && high < 1e300) high *= 2;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (low + high) / 2;
-    (cost(middle) <= budget ? low : high) = middle;
-  }
-  SampleGoal goal{mean, reached.of_tile, true};
-  for (std::size_t tile = 0; tile < tiles; ++tile) goal.of_tile[tile] = share(tile, low);
-  return goal;
+  const std::vector<bool> none(tiles, false), all(tiles, true);
+  const bool is_even_so_far = std::ranges::adjacent_find(reached.of_tile, std::not_equal_to{}) == reached.of_tile.end();
+  const TileProgress even = is_even_so_far ? TileProgress(tiles, mean) : allocate(none);
+  const std::vector<bool> sure = sure_of_gain(grid, variances, even, allocate(all));
+  return {mean, sure == none ? even : allocate(sure), true};
 }
 
 }  // namespace norrsken
