@@ -18,7 +18,7 @@ constexpr std::size_t kFewestTiles = 64;
 /// No tile gets more than so many times the mean: spots of noise must not draw all samples to their surroundings.
 constexpr std::uint32_t kGreatestShare = 16;
 /// So many times its standard error has to be gained by uneven samples, or they are even.
-constexpr double kSureGain = 1.0;
+constexpr double kSureGain = 0.5;
 
 /// Of what a prediction says, so that it comes true.
 constexpr double kTimeMargin = 0.97;
