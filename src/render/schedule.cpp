@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -16,6 +17,8 @@ constexpr std::uint32_t kBlock = 16, kSmallBlock = kReplicates;
 constexpr std::size_t kFewestTiles = 64;
 /// No tile gets more than so many times the mean: spots of noise must not draw all samples to their surroundings.
 constexpr std::uint32_t kGreatestShare = 16;
+/// So many times its standard error has to be gained by uneven samples, or they are even.
+constexpr double kSureGain = 0.5;
 
 /// Of what a prediction says, so that it comes true.
 constexpr double kTimeMargin = 0.97;
@@ -131,7 +134,7 @@ namespace {
 constexpr double kRowWeights[] = {0.3, 1, 0.5};
 constexpr double kBesideWeight = 0.2;
 
-/// Each tile's deviation of one sample, from the mean variance of those around it.
+/// Each tile's deviation of one sample, from the mean variance of those around it; negative variances are left out.
 std::vector<double> deviations_around(const TileGrid& grid, const std::vector<double>& variances) {
   const auto columns = static_cast<std::int64_t>(grid.columns), rows = static_cast<std::int64_t>(grid.rows);
   constexpr std::int64_t kReach = std::size(kRowWeights) - 1;
@@ -141,8 +144,8 @@ std::vector<double> deviations_around(const TileGrid& grid, const std::vector<do
       double variance = 0, weights = 0;
       for (std::int64_t v = std::max<std::int64_t>(y - kReach, 0); v <= std::min(y + kReach, rows - 1); ++v) {
         for (std::int64_t u = std::max<std::int64_t>(x - 1, 0); u <= std::min(x + 1, columns - 1); ++u) {
-          if (u == x && v == y) continue;
           const auto other = static_cast<std::size_t>(v * columns + u);
+          if ((u == x && v == y) || variances[other] < 0) continue;
           const double weight =
               static_cast<double>(grid.pixels_of(other)) * kRowWeights[std::abs(v - y)] * (u == x ? 1 : kBesideWeight);
           variance += weight * variances[other];
@@ -155,16 +158,10 @@ std::vector<double> deviations_around(const TileGrid& grid, const std::vector<do
   return deviations;
 }
 
-}  // namespace
-
-SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const SampleGoal& reached, std::uint32_t mean) {
-  const std::size_t tiles = grid.tile_count();
-  std::vector<double> variances(tiles);
-  for (std::size_t tile = 0; tile < tiles; ++tile) {
-    const FilmError error = film.error(grid.region_of(tile));
-    if (error.channels > 0) variances[tile] = error.sample_variance_sum / static_cast<double>(error.channels);
-  }
-  const std::vector<double> deviations = deviations_around(grid, variances);
+/// As many samples as fit the budget, for the tiles that are uneven in proportion to the mean deviation plus their own.
+TileProgress allocate(const TileGrid& grid, const SampleGoal& reached, std::uint32_t mean,
+                      const std::vector<double>& deviations, const std::vector<bool>& is_uneven) {
+  const std::size_t tiles = deviations.size();
   double budget = 0, deviation_sum = 0, pixels = 0;
   for (std::size_t tile = 0; tile < tiles; ++tile) {
     const auto of_tile = static_cast<double>(grid.pixels_of(tile));
@@ -172,16 +169,14 @@ SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const Sample
     budget += of_tile * mean;
     deviation_sum += of_tile * deviations[tile];
   }
-  if (tiles < kFewestTiles || !(deviation_sum > 0)) {
-    return SampleGoal::uniform(grid, mean, true).and_at_least(reached.of_tile);
-  }
+  if (!(deviation_sum > 0)) return SampleGoal::uniform(grid, mean, true).and_at_least(reached.of_tile).of_tile;
   const double mean_deviation = deviation_sum / pixels;
   const double most = std::min(static_cast<double>(kGreatestShare) * mean, 1e9);
   const auto share = [&](std::size_t tile, double scale) {
-    const double samples = std::min(scale * (mean_deviation + deviations[tile]), most);
-    return std::max(reached.of_tile[tile], round_down(static_cast<std::uint32_t>(samples) + kBlock / 2, kBlock));
+    const double part = mean_deviation + (is_uneven[tile] ? deviations[tile] : mean_deviation);
+    const auto samples = static_cast<std::uint32_t>(std::min(scale * part, most));
+    return std::max(reached.of_tile[tile], round_down(samples + kBlock / 2, kBlock));
   };
-
   // The greatest scale whose samples are no more than asked for.
   const auto cost = [&](double scale) {
     double samples = 0;
@@ -191,13 +186,63 @@ SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const Sample
   };
   double low = 0, high = mean / mean_deviation;
   while (cost(high) < budget && high < 1e300) high *= 2;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const double middle = (low + high) / 2;
     (cost(middle) <= budget ? low : high) = middle;
   }
-  SampleGoal goal{mean, reached.of_tile, true};
-  for (std::size_t tile = 0; tile < tiles; ++tile) goal.of_tile[tile] = share(tile, low);
-  return goal;
+  TileProgress samples(tiles);
+  for (std::size_t tile = 0; tile < tiles; ++tile) samples[tile] = share(tile, low);
+  return samples;
+}
+
+/// Whether it is sure that uneven samples leave less variance than `even` ones, by those tiles whose variance is not
+/// negative. It is not their own that their numbers follow, so that the gain is right on average; its error is that of its
+/// terms, which are independent. Where noise is of rare and bright paths, few tiles carry all of it: nothing is sure.
+bool is_sure_of_gain(const TileGrid& grid, const std::vector<double>& variances, const TileProgress& even,
+                     const TileProgress& uneven) {
+  double sum = 0, squares = 0;
+  for (std::size_t tile = 0; tile < variances.size(); ++tile) {
+    if (variances[tile] < 0) continue;
+    const double variance = static_cast<double>(grid.pixels_of(tile)) * variances[tile];
+    const double gain = variance / even[tile] - variance / uneven[tile];
+    sum += gain;
+    squares += gain * gain;
+  }
+  return sum > kSureGain * std::sqrt(squares);
+}
+
+/// The group of a tile, of which no two are in each other's way: whether to trust noise is decided for each by the others.
+constexpr std::size_t kGroups = 8;
+std::size_t group_of(const TileGrid& grid, std::size_t tile) {
+  return (tile % grid.columns + 3 * (tile / grid.columns)) % kGroups;
+}
+
+}  // namespace
+
+SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const SampleGoal& reached, std::uint32_t mean) {
+  const std::size_t tiles = grid.tile_count();
+  if (tiles < kFewestTiles) return SampleGoal::uniform(grid, mean, true).and_at_least(reached.of_tile);
+  std::vector<double> variances(tiles);
+  for (std::size_t tile = 0; tile < tiles; ++tile) {
+    const FilmError error = film.error(grid.region_of(tile));
+    if (error.channels > 0) variances[tile] = error.sample_variance_sum / static_cast<double>(error.channels);
+  }
+  const std::vector<double> deviations = deviations_around(grid, variances);
+  const std::vector<bool> none(tiles, false), all(tiles, true);
+  const bool is_even_so_far = std::ranges::adjacent_find(reached.of_tile, std::not_equal_to{}) == reached.of_tile.end();
+  const TileProgress even =
+      is_even_so_far ? TileProgress(tiles, mean) : allocate(grid, reached, mean, deviations, none);
+  bool sure[kGroups];
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    std::vector<double> of_others = variances;
+    for (std::size_t tile = 0; tile < tiles; ++tile)
+      if (group_of(grid, tile) == group) of_others[tile] = -1;
+    sure[group] =
+        is_sure_of_gain(grid, of_others, even, allocate(grid, reached, mean, deviations_around(grid, of_others), all));
+  }
+  std::vector<bool> is_uneven(tiles);
+  for (std::size_t tile = 0; tile < tiles; ++tile) is_uneven[tile] = sure[group_of(grid, tile)];
+  return {mean, is_uneven == none ? even : allocate(grid, reached, mean, deviations, is_uneven), true};
 }
 
 }  // namespace norrsken

@@ -72,8 +72,9 @@ class SampleSchedule {
 /// Cochran, Sampling Techniques, 5.5): in proportion to the standard deviation of one sample. That deviation is one of the
 /// tiles around, the row of pixels above and below first of all, and never of the tile itself: a number of samples that
 /// depended on their values would pull the image down where dark samples came first (Kirk and Arvo, Unbiased Sampling
-/// Techniques for Image Synthesis, 1991). What a tile has is still felt through the budget that all share, the less the more
-/// tiles there are; with few, all get the same. No tile loses what it has.
+/// Techniques for Image Synthesis, 1991). Tiles are in groups: where the other groups do not show, beyond chance, that this
+/// leaves less noise than even samples, a group's tiles get as many as if all were even. What a tile has is still felt
+/// through the budget that all share, the less the more tiles there are; with few, all get the same. No tile loses what it has.
 SampleGoal allocate_samples(const TileGrid& grid, const Film& film, const SampleGoal& reached, std::uint32_t mean);
 
 }  // namespace norrsken

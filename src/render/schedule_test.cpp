@@ -23,6 +23,13 @@ class Allocation : public ::testing::Test {
   }
   std::size_t tile(std::uint32_t column, std::uint32_t row) const { return std::size_t{row} * grid_.columns + column; }
 
+  /// Of one column, with so great a deviation; it is 1 elsewhere.
+  std::vector<double> spot_of_rows(std::uint32_t first, std::uint32_t end, double deviation) const {
+    std::vector<double> deviations(grid_.tile_count(), 1);
+    for (std::uint32_t row = first; row < end; ++row) deviations[tile(5, row)] = deviation;
+    return deviations;
+  }
+
   void take_samples(const std::vector<double>& deviations) {
     const FilmView film = film_.view();
     for (std::uint32_t y = 0; y < kHeight; ++y) {
@@ -66,25 +73,60 @@ TEST_F(Allocation, HalfOfItGoesWithTheDeviation) {
 
 /// A tile's own samples must not decide how many it gets.
 TEST_F(Allocation, IsDecidedByTheNeighbors) {
-  std::vector<double> deviations(grid_.tile_count(), 1);
+  std::vector<double> deviations = spot_of_rows(20, 25, 30);
   take_samples(deviations);
-  const SampleGoal even = allocate(64);
-  deviations[tile(5, 7)] = 100;
+  const SampleGoal before = allocate(64);
+  deviations[tile(5, 22)] = 90;
   take_samples(deviations);
   const SampleGoal goal = allocate(64);
   // Never more; fewer only as its neighbours leave less of the budget to all.
-  EXPECT_LE(goal.of_tile[tile(5, 7)], even.of_tile[tile(5, 7)]);
-  EXPECT_GT(goal.of_tile[tile(5, 8)], even.of_tile[tile(5, 8)]);
-  EXPECT_GT(goal.of_tile[tile(4, 7)], even.of_tile[tile(4, 7)]);
+  EXPECT_LE(goal.of_tile[tile(5, 22)], before.of_tile[tile(5, 22)]);
+  EXPECT_GT(goal.of_tile[tile(5, 21)], before.of_tile[tile(5, 21)]);
+  EXPECT_GT(goal.of_tile[tile(4, 22)], before.of_tile[tile(4, 22)]);
+}
+
+/// Its own samples do not decide whether the neighbours are trusted either.
+TEST_F(Allocation, TrustIsDecidedByTheOthers) {
+  std::vector<double> deviations = spot_of_rows(20, 25, 30);
+  deviations[tile(1, 50)] = 300;
+  take_samples(deviations);
+  const SampleGoal goal = allocate(64);
+  // It loses by uneven samples what all others together would not gain.
+  EXPECT_EQ(goal.of_tile[tile(5, 21)], goal.of_tile[tile(5, 2)]);
+  EXPECT_LT(goal.of_tile[tile(1, 50)], goal.of_tile[tile(5, 2)]);
 }
 
 /// A spot of five rows of one column, as a caustic is in a small image: it is found although no other column has any of it.
 TEST_F(Allocation, FindsASpotOfAFewRows) {
-  std::vector<double> deviations(grid_.tile_count(), 1);
-  for (std::uint32_t row = 20; row < 25; ++row) deviations[tile(5, row)] = 30;
-  take_samples(deviations);
+  take_samples(spot_of_rows(20, 25, 30));
   const SampleGoal goal = allocate(64);
   for (std::uint32_t row = 20; row < 25; ++row) EXPECT_GT(goal.of_tile[tile(5, row)], 200u) << row;
+}
+
+/// Rare bright paths: the tiles that have seen one say nothing about those around them.
+TEST_F(Allocation, StaysEvenWhereNoiseIsNotThatOfTheNeighbors) {
+  for (const std::uint32_t every : {1u, 7u, 41u, 500u}) {
+    std::vector<double> deviations(grid_.tile_count(), 1);
+    for (std::size_t i = 0; i * every < deviations.size(); ++i) {
+      deviations[(i * every * 331 + 100) % deviations.size()] = 5 + static_cast<double>(i * i * 37 % 101);
+    }
+    take_samples(deviations);
+    const SampleGoal goal = allocate(64);
+    EXPECT_EQ(goal.of_tile, SampleGoal::uniform(grid_, 64, true).of_tile) << every;
+  }
+}
+
+/// A step that is not sure of a gain evens out what earlier ones have spread unevenly.
+TEST_F(Allocation, EvensOutWhatItIsNotSureOf) {
+  std::vector<double> deviations(grid_.tile_count(), 1);
+  deviations[tile(5, 7)] = 100;
+  take_samples(deviations);
+  SampleGoal reached = SampleGoal::uniform(grid_, kTaken, true);
+  reached.of_tile[tile(3, 3)] = 64;
+  const SampleGoal goal = allocate_samples(grid_, film_, reached, 64);
+  EXPECT_EQ(goal.of_tile[tile(3, 3)], 64u);
+  EXPECT_EQ(goal.of_tile[tile(5, 7)], 64u);
+  EXPECT_EQ(goal.of_tile[tile(5, 8)], 64u);
 }
 
 TEST_F(Allocation, WithoutNoiseItIsEven) {
@@ -94,12 +136,10 @@ TEST_F(Allocation, WithoutNoiseItIsEven) {
 }
 
 TEST_F(Allocation, NoTileGetsMoreThanSixteenTimesTheMean) {
-  std::vector<double> deviations(grid_.tile_count(), 1e-6);
-  deviations[tile(5, 7)] = 1;
-  take_samples(deviations);
+  take_samples(spot_of_rows(20, 24, 1e6));
   const SampleGoal goal = allocate(64);
-  EXPECT_LE(goal.most(), 16u * 64u);
-  EXPECT_EQ(goal.of_tile[tile(5, 8)], goal.of_tile[tile(5, 6)]);
+  EXPECT_EQ(goal.most(), 16u * 64u);
+  EXPECT_EQ(goal.of_tile[tile(5, 20)], goal.of_tile[tile(5, 23)]);
 }
 
 class Schedule : public Allocation {

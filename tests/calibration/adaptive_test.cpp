@@ -87,26 +87,36 @@ TEST(Adaptive, IsUnbiasedAndBetterThanUniform) {
 }
 
 /// Small images too, whose caustics and highlights are a few pixels wide: noise is where the regions around have none of it.
+/// In wide ones of few samples it is where chance has it: samples stay even there, but for a few renderings.
 TEST(Adaptive, NeedsNoMoreSamplesThanUniform) {
   struct Case {
     const char* name;
     Scene scene;
-    int samples;
+    int samples, seeds;
+    double most;  ///< of the cost of uniform sampling
   };
-  const Case cases[] = {
-      {"caustic", load_test_scene("rare_paths.xml"), 64},
-      {"metal", load_test_scene("rare_paths.xml", {{"ball", "metal"}}), 64},
-      {"room", load("hexagon_room", {.parameters = {{"shadow_rays", "1"}}, .width = 64, .height = 64}), 64}};
-  constexpr int kSeeds = 24;
+  const auto room = [](int width, int height) {
+    return load("hexagon_room", {.parameters = {{"shadow_rays", "1"}}, .width = width, .height = height});
+  };
+  const auto wide = [](int width, int height) {
+    return load_test_scene_with("rare_paths.xml", {.parameters = {}, .width = width, .height = height});
+  };
+  const Case cases[] = {{"caustic", load_test_scene("rare_paths.xml"), 64, 24, 0.8},
+                        {"metal", load_test_scene("rare_paths.xml", {{"ball", "metal"}}), 64, 24, 0.8},
+                        {"room", room(64, 64), 64, 24, 0.95},
+                        {"wide caustic", wide(160, 24), 32, 100, 1.05},
+                        {"wider caustic", wide(200, 20), 64, 100, 1.05},
+                        {"wide room", room(160, 24), 32, 24, 1}};
   for (const Case& c : cases) {
-    const auto truth = picture_of(render_image(c.scene, {.samples_per_pixel = 4096, .seed = 999, .threads = kThreads}));
+    const auto truth = picture_of(render_image(c.scene, {.samples_per_pixel = 8192, .seed = 999, .threads = kThreads}));
     double cost[2] = {};
     for (const bool adaptive : {false, true}) {
-      for (int seed = 0; seed < kSeeds; ++seed) {
+      for (int seed = 0; seed < c.seeds; ++seed) {
+        // The same seeds, so that what differs is where the samples are.
         const Image image = render_image(c.scene,
                                          {.samples_per_pixel = c.samples,
                                           .adaptive = adaptive,
-                                          .seed = static_cast<std::uint64_t>(seed + (adaptive ? 100 : 0)),
+                                          .seed = static_cast<std::uint64_t>(seed),
                                           .threads = kThreads},
                                          true);
         const auto picture = picture_of(image);
@@ -119,7 +129,7 @@ TEST(Adaptive, NeedsNoMoreSamplesThanUniform) {
       }
     }
     std::printf("%s: the same error with %.3f times the samples of uniform sampling\n", c.name, cost[1] / cost[0]);
-    EXPECT_LT(cost[1], cost[0]) << c.name;
+    EXPECT_LT(cost[1], c.most * cost[0]) << c.name;
   }
 }
 
