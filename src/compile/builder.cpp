@@ -394,7 +394,8 @@ LoadedScene Builder::build(const LoadOptions& options) {
     if (tables().lights.empty()) diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
     tell_what_is_beyond_view();
   }
-  for (ShapeRecord& shape : tables().shapes) shape.variation = std::max(shape.variation, variation_of_layers());
+  const Variation of_layers = variation_of_layers();
+  for (ShapeRecord& shape : tables().shapes) shape.variation = std::max(shape.variation, of_layers);
   geometry_.finish(scene_.info);
   attributes_.finish();
   choose_lights();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "formats/mesh_readers.h"
+#include "formats/mesh_testing.h"
 #include "formats/reader_testing.h"
 
 namespace norrsken {
@@ -48,18 +49,6 @@ TEST(Obj, PolygonsBecomeFans) {
   EXPECT_EQ(read(kSquare + "f 1 2 3 4").triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(read("v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 5 1 2 3 4\n").triangles,
             (Triangles{{4, 0, 1}, {4, 1, 2}, {4, 2, 3}}));
-}
-
-/// Twice the area of a mesh in the plane z = 0; triangles that are turned over count as negative.
-double area2(const MeshData& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles) {
-    const auto &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-    const double area = double{b[0] - a[0]} * double{c[1] - a[1]} - double{b[1] - a[1]} * double{c[0] - a[0]};
-    EXPECT_GE(area, 0);
-    sum += area;
-  }
-  return sum;
 }
 
 const std::string kL = "v 0 0 0\nv 3 0 0\nv 3 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\n";

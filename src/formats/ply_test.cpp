@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "formats/mesh_readers.h"
+#include "formats/mesh_testing.h"
 #include "formats/reader_testing.h"
 
 namespace norrsken {
@@ -94,18 +95,6 @@ TEST(Ply, EveryTypeAndWhatIsSkipped) {
     EXPECT_EQ(mesh.texcoords.at(2), (std::array<float, 2>{-5, 0.25f})) << big;
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}})) << big;
   }
-}
-
-/// Twice the area of a mesh in the plane z = 0; triangles that are turned over count as negative.
-double area2(const MeshData& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles) {
-    const auto &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-    const double area = double{b[0] - a[0]} * double{c[1] - a[1]} - double{b[1] - a[1]} * double{c[0] - a[0]};
-    EXPECT_GE(area, 0);
-    sum += area;
-  }
-  return sum;
 }
 
 const std::string kL = "0 0 0\n3 0 0\n3 1 0\n1 1 0\n1 3 0\n0 3 0\n";

@@ -375,10 +375,14 @@ void Parameters::accept_without_effect(const BaseParameter& parameter) {
 
 void Parameters::finish() {
   const std::vector<std::string> names = list(asked_names_), kinds = list(asked_kinds_);
-  std::vector<std::string> known = names;
-  for (const BaseParameter& row : base_parameters()) {
-    if (find_base_parameter(node_.kind, node_.plugin, row.name)) known.emplace_back(row.name);
-  }
+  // Only what is misspelt asks for it.
+  const auto meant = [&](std::string_view name) {
+    std::vector<std::string> known = names;
+    for (const BaseParameter& row : base_parameters()) {
+      if (find_base_parameter(node_.kind, node_.plugin, row.name)) known.emplace_back(row.name);
+    }
+    return did_you_mean(name, known);
+  };
   const std::string none = "no parameters";
   for (const Property& property : node_.properties) {
     if (asked_names_.contains(property.name)) continue;
@@ -386,10 +390,10 @@ void Parameters::finish() {
       accept_without_effect(*base);
       continue;
     }
-    diagnostics_.error(property.name_location,
-                       fmt::format("unused parameter {} of {}{}", quoted(property.file_name()), name_of(node_),
-                                   did_you_mean(property.name, known)),
-                       names.empty() ? none : join(names));
+    diagnostics_.error(
+        property.name_location,
+        fmt::format("unused parameter {} of {}{}", quoted(property.file_name()), name_of(node_), meant(property.name)),
+        names.empty() ? none : join(names));
   }
   for (const Node::Child& child : node_.children) {
     if (asked_kinds_.contains(child.node->kind) || (!child.name.empty() && asked_names_.contains(child.name))) continue;
@@ -397,7 +401,7 @@ void Parameters::finish() {
     const std::string accepted = kinds.empty() && !names.empty() ? "the names " + join(names) : join(kinds);
     diagnostics_.error(child.location,
                        fmt::format("unused {}{} in {}{}", name_of(*child.node), named, name_of(node_),
-                                   child.name.empty() ? "" : did_you_mean(child.name, known)),
+                                   child.name.empty() ? "" : meant(child.name)),
                        accepted.empty() ? "no children" : accepted);
   }
 }
