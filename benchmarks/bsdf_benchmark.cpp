@@ -1,5 +1,5 @@
 // What a path pays for a scattering model, per instruction set: every line of bsdf_test_cases.def, which has every
-// model of list.def. scripts/measure_models.py makes a table of it.
+// model of lists/bsdf.def. scripts/measure_models.py makes a table of it.
 #include "model_bench.h"
 #include "render/scene_view.h"
 

@@ -1,4 +1,4 @@
-// What a path pays for a kind of light, per instruction set: every line of src/light/list.def, in a scene of one such
+// What a path pays for a kind of light, per instruction set: every line of src/lists/light.def, in a scene of one such
 // light. scripts/measure_models.py makes a table of it.
 #include <array>
 #include <map>
@@ -16,7 +16,7 @@ constexpr struct {
   const char* name;
 } kKinds[] = {
 #define NORRSKEN_LIGHT(kind, Model, is_delta) {LightKind::kind, #kind},
-#include "light/list.def"
+#include "lists/light.def"
 #undef NORRSKEN_LIGHT
 };
 

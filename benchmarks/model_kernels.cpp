@@ -96,12 +96,12 @@ const ModelKernels kModelKernels = {NORRSKEN_ISA_NAME,
 #define NORRSKEN_BSDF(kind, Model)                                                             \
   {bsdf_kernel<Model, BsdfOperation::evaluate>(), bsdf_kernel<Model, BsdfOperation::pdf_sa>(), \
    bsdf_kernel<Model, BsdfOperation::sample>(), bsdf_kernel<Model, BsdfOperation::hit>()},
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
                                     },
                                     {
 #define NORRSKEN_LIGHT(kind, Model, is_delta) {run_light_sample<Model>, light_pdf_kernel<Model, is_delta>()},
-#include "light/list.def"
+#include "lists/light.def"
 #undef NORRSKEN_LIGHT
                                     }};
 

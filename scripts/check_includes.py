@@ -12,60 +12,39 @@ import re
 import sys
 import tempfile
 
-# The plugin families. A file of one never includes another's, and its models never include each other. What is no model:
-# FAMILY/FAMILY.h, the interface or the dispatch over the models, and the headers in SHARED.
+# The plugin families. A file of one never includes another's but where the table says so. The models of a family, which
+# are what its models.h includes, never include each other: only models.h and a model's own files include it.
 FAMILIES = ["bsdf", "camera", "integrator", "light", "rfilter", "sampler", "shape", "texture"]
 
-# Mathematics that several models of a family use.
-SHARED = {"bsdf/coat.h", "bsdf/fresnel.h", "bsdf/microfacet.h", "bsdf/principled_lobes.h",
-          "bsdf/resolved.h", "camera/connect.h", "light/area_point.h", "light/emit.h", "light/light_tree.h",
-          "sampler/dimensions.h", "sampler/hash.h", "shape/curve.h"}
+PUBLIC = "norrsken"  # include/norrsken
 
-# Loops over the kinds of a family, besides FAMILY/FAMILY.h.
-DISPATCH = {"light/emit_lights.h", "light/sample_lights.h", "texture/parameter_reader.h"}
-
-# Headers of families that compute tables: for src/compile as well. (What only a family's own host files share is in a
-# header that ends in _host.)
-HOST_HEADERS = {"light/light_choice.h", "sampler/sampler_host.h"}
-
-# Host files of plugins that stand in a folder that is no family.
-HOST_PLUGINS = {"film/hdrfilm.cpp"}
-
-KERNEL_BASE = ["base", "simd", "math", "color", "tables"]
-
-# Which folders below src/ a folder may include, besides itself and `api`, the public headers (see below). Kernel code
-# runs per ray, host code once per scene or image.
-KERNEL_LAYERS = {
+# Which rooms (folders below src/, and PUBLIC) a room may include, besides itself. Kernel code runs per ray, host code once
+# per scene or image.
+KERNEL_BASE = ["base", "lists", "simd", "math", "color", "tables"]
+KERNEL_ROOMS = {
     "simd": ["base"],
     "math": ["base", "simd"],
-    "color": ["base", "simd", "math"],
     **{family: KERNEL_BASE for family in FAMILIES},
-    # Parameters of these may be textures.
-    "bsdf": KERNEL_BASE + ["texture"],
-    # So may that of a light, which may have the form of any shape.
-    "light": KERNEL_BASE + ["shape", "texture"],
-    "accel": KERNEL_BASE + ["shape"],
+    "bsdf": KERNEL_BASE + ["texture"],            # whose parameters may be textures
+    "light": KERNEL_BASE + ["shape", "texture"],  # which may have the form of any shape
     "wave": KERNEL_BASE + FAMILIES + ["accel"],
-    "isa": KERNEL_BASE + FAMILIES + ["accel", "wave"],
 }
-HOST_LAYERS = {
-    "base": [],
-    "tables": ["base"],
-    "scene": ["base", "color"],
-    "formats": ["base", "color", "scene"],
-    "compile": ["base", "color", "tables", "scene", "formats"],
-    "film": ["base", "color", "tables"],
-    "render": ["base", "color", "tables", "scene", "formats", "compile", "accel", "isa", "film"],
+HOST_ROOMS = {
+    "base": [PUBLIC],
+    "lists": [],
+    "color": [PUBLIC, "base", "simd", "math"],
+    "tables": ["base", "lists"],
+    "scene": [PUBLIC, "base", "color"],
+    "formats": [PUBLIC, "base", "color", "scene"],
+    "compile": [PUBLIC, "base", "lists", "color", "tables", "scene", "formats"],
+    "accel": [PUBLIC, "shape"] + KERNEL_BASE,
+    "isa": [PUBLIC, "accel", "wave"] + KERNEL_BASE,
+    "film": [PUBLIC, "base", "color", "tables"],
+    "render": [PUBLIC, "base", "lists", "color", "tables", "scene", "formats", "compile", "accel", "isa", "film"],
 }
-LAYERS = {**KERNEL_LAYERS, **HOST_LAYERS}
-
-# Families have host files (NAME.cpp, *_host.h: parameters, packing), which read the description and the files that it
-# names, and write the tables through what src/compile offers to plugins.
-FAMILY_HOST_EXTRA = ["scene", "formats", "compile"]
-
-# Who may include the public headers: host layers and the kernel layers that have host headers too. (Of a family, only
-# the .cpp files.)
-API_USERS = set(HOST_LAYERS) | {"color", "accel", "isa"}
+# The host's side of a family, its .cpp files and *_host.h: it reads the description and the files that it names, and
+# writes the tables through what src/compile offers to plugins.
+FAMILY_HOST = [PUBLIC, "scene", "formats", "compile"]
 
 # Libraries and where they may be included; unlisted libraries are free.
 LIBRARIES = {
@@ -88,6 +67,8 @@ KERNEL_HEADER_BANS = {
     "unordered_map", "unordered_set", "vector",
 }
 
+ROOMS = {**KERNEL_ROOMS, **HOST_ROOMS}
+
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SOURCES = {".h", ".cpp", ".def", ".inl"}
 
@@ -99,47 +80,35 @@ class File:
         self.path = path  # relative to the root, pathlib.PurePath
         parts = path.parts
         self.is_test = path.stem.endswith(("_test", "_testing")) or parts[0] in ("tests", "benchmarks", "fuzz")
-        self.layer = parts[1] if parts[0] == "src" and len(parts) > 2 else parts[0]
-        self.is_header = path.suffix != ".cpp"
-        name = "/".join(path.parts[1:])
-        self.is_family_host = name in HOST_PLUGINS or self.layer in FAMILIES and (
-            not self.is_header or path.stem.endswith("_host") or name in HOST_HEADERS)
-        self.is_kernel_header = (
-            self.is_header and self.layer in KERNEL_LAYERS and self.layer not in API_USERS and not self.is_family_host)
-        self.is_dispatch = path.stem == self.layer or name in DISPATCH
+        self.room = parts[1] if parts[0] == "src" and len(parts) > 2 else parts[0]
+        is_header = path.suffix != ".cpp"
+        self.is_family_host = self.room in FAMILIES and (not is_header or path.stem.endswith("_host"))
+        self.is_kernel_header = is_header and self.room in KERNEL_ROOMS and not self.is_family_host
 
 
-def forbidden_project_include(file, target):
-    """Why `file` may not include the project's header `target` ("layer/name.h"), or None."""
-    layer = target.split("/")[0]
-    if layer == "norrsken":
-        if file.layer in LAYERS and file.layer not in API_USERS and not file.is_family_host:
-            return "the public headers are not for kernels"
+def forbidden_project_include(file, target, models):
+    """Why `file` may not include the project's header `target` ("room/name.h"), or None. `models`: FAMILY/NAME.h of all."""
+    room = target.split("/")[0]
+    if room != PUBLIC and room not in ROOMS:
         return None
-    if layer not in LAYERS:
-        return None
-    if file.layer == "apps":
-        return "the command line uses nothing but include/norrsken"
-    if file.layer == "include":
-        return "a public header includes only public headers"
-    if file.layer not in LAYERS:
-        return f"src/{file.layer} is not in the table of layers (scripts/check_includes.py)"
-    if target.endswith(".def"):
-        return None  # lists of names: data, which every layer may expand
+    if file.room == "apps":
+        return None if room == PUBLIC else "the command line uses nothing but include/norrsken"
+    if file.room == "include":
+        return None if room == PUBLIC else "a public header includes only public headers"
+    if file.room not in ROOMS:
+        return f"src/{file.room} is not in the table of rooms (scripts/check_includes.py)"
     stem = target.split("/")[1].rsplit(".", 1)[0]
-    if layer == file.layer:
-        is_model = layer in FAMILIES and stem != layer and target not in SHARED | DISPATCH | HOST_HEADERS
-        is_shared_host = file.is_family_host and stem.endswith("_host")
-        if is_model and stem != file.path.stem and not file.is_dispatch and not is_shared_host:
-            return f"the models of src/{layer} do not include each other"
+    if room in FAMILIES and stem.endswith("_host") and not file.is_family_host:
+        return f"{target} is for the host's side of src/{room}"
+    if room == file.room:
+        if target in models and file.path.stem not in (stem, "models"):
+            return f"the models of src/{room} do not include each other"
         return None
-    if target in HOST_HEADERS and file.layer == "compile":
-        return None
-    allowed = list(LAYERS[file.layer])
-    if file.is_family_host:
-        allowed += FAMILY_HOST_EXTRA
-    if layer not in allowed:
-        return f"src/{file.layer} may include {', '.join(sorted(allowed)) or 'no other layer'}; not {layer}"
+    allowed = list(ROOMS[file.room]) + (FAMILY_HOST if file.is_family_host else [])
+    if room not in allowed:
+        if room == PUBLIC:
+            return "the public headers are not for kernels"
+        return f"src/{file.room} may include {', '.join(sorted(allowed)) or 'no other room'}; not {room}"
     return None
 
 
@@ -147,31 +116,36 @@ def forbidden_library_include(file, target):
     """Why `file` may not include the library header `target`, or None."""
     for prefix, users in LIBRARIES.items():
         if target.startswith(prefix):
-            return None if file.layer in users else f"{prefix} is for {', '.join(users)} only"
+            return None if file.room in users else f"{prefix} is for {', '.join(users)} only"
     if file.is_kernel_header and target in KERNEL_HEADER_BANS:
         return f"<{target}> in a kernel header: kernels neither allocate nor lock, print or throw"
     return None
 
 
+def includes_of(path):
+    """Line, quote and target of each include of a file."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if match := INCLUDE.match(line):
+            yield number, *match.groups()
+
+
 def check(root):
     """Yields `file:line: message` for every violation below `root`."""
+    models = {target for family in FAMILIES if (path := root / "src" / family / "models.h").exists()
+              for _, _, target in includes_of(path)}
     for top in ("include", "src", "apps"):
         for path in sorted((root / top).rglob("*")):
             if path.suffix not in SOURCES:
                 continue
             file = File(path.relative_to(root))
-            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-                match = INCLUDE.match(line)
-                if not match:
-                    continue
-                quote, target = match.groups()
+            for number, quote, target in includes_of(path):
                 reason = None
                 if ".." in target.split("/"):
                     reason = "include by the path from src/ or include/, not a relative one"
                 elif file.is_test:
                     pass  # a test may look at everything
                 elif (root / "src" / target).exists() or target.startswith("norrsken/"):
-                    reason = forbidden_project_include(file, target)
+                    reason = forbidden_project_include(file, target, models)
                 else:
                     reason = forbidden_library_include(file, target)
                 if reason:
@@ -179,27 +153,30 @@ def check(root):
 
 
 def check_acyclic():
-    """Raises if the table of layers has a cycle."""
+    """Raises if the table of rooms has a ring, the host's side of the families counted."""
+    below = {room: set(others) for room, others in ROOMS.items()}
+    for family in FAMILIES:
+        below[family].update(FAMILY_HOST)
     done, path = set(), []
 
-    def visit(layer):
-        if layer in path:
-            raise SystemExit(f"the table of layers has a cycle: {' -> '.join(path + [layer])}")
-        if layer not in done:
-            path.append(layer)
-            for below in LAYERS[layer]:
-                visit(below)
+    def visit(room):
+        if room in path:
+            raise SystemExit(f"the table of rooms has a ring: {' -> '.join(path + [room])}")
+        if room not in done:
+            path.append(room)
+            for other in below.get(room, ()):
+                visit(other)
             done.add(path.pop())
 
-    for layer in LAYERS:
-        visit(layer)
+    for room in ROOMS:
+        visit(room)
 
 
 PLANTED = {  # file: (includes, how many of them are wrong)
     "src/math/vec.h": (['"simd/lanes.h"', "<vector>", '"tables/scene_tables.h"'], 2),
     "src/simd/lanes.h": (["<hwy/highway.h>"], 0),
-    "src/tables/scene_tables.h": (["<vector>", '"bsdf/list.def"'], 0),
-    "src/bsdf/list.def": ([], 0),
+    "src/tables/scene_tables.h": (["<vector>", '"lists/bsdf.def"'], 0),
+    "src/lists/bsdf.def": ([], 0),
     "src/bsdf/diffuse.h": (['"math/vec.h"', '"bsdf/mirror.h"', '"light/area.h"', '"norrsken/api.h"'], 3),
     "src/bsdf/diffuse.cpp": (['"bsdf/diffuse.h"', '"scene/node.h"', '"norrsken/api.h"', "<vector>", "<hwy/highway.h>"], 1),
     "src/bsdf/bsdf_host.h": (["<vector>", '"compile/compile.h"', '"light/area.h"'], 1),
@@ -207,12 +184,14 @@ PLANTED = {  # file: (includes, how many of them are wrong)
     "src/bsdf/rough.h": (['"bsdf/bsdf_host.h"', '"compile/compile.h"'], 2),
     "src/compile/compile.h": ([], 0),
     "src/film/film.cpp": (['"compile/compile.h"'], 1),
-    "src/film/hdrfilm.cpp": (['"compile/compile.h"'], 0),
+    "src/camera/hdrfilm.cpp": (['"compile/compile.h"'], 0),
+    "src/bsdf/models.h": (['"bsdf/diffuse.h"', '"bsdf/mirror.h"'], 0),
+    "src/wave/dispatch.h": (['"bsdf/models.h"', '"bsdf/bsdf_host.h"'], 1),
     "src/bsdf/diffuse_test.cpp": (['"bsdf/diffuse.h"', '"light/area.h"', "<gtest/gtest.h>"], 0),
     "src/bsdf/mirror.h": (['"../math/vec.h"', '"bsdf/bsdf.h"'], 1),
-    "src/bsdf/bsdf.h": (['"bsdf/diffuse.h"', '"bsdf/mirror.h"'], 0),
-    "src/light/light_choice.h": (["<vector>"], 0),
-    "src/compile/compile.cpp": (['"bsdf/list.def"', '"light/light_choice.h"', '"light/area.h"'], 1),
+    "src/bsdf/bsdf.h": (['"bsdf/diffuse.h"'], 1),
+    "src/bsdf/dispatch.h": (['"bsdf/models.h"'], 0),
+    "src/compile/compile.cpp": (['"lists/bsdf.def"', '"light/area.h"'], 1),
     "src/light/area.h": (["<iostream>"], 1),
     "src/scene/node.h": (['"norrsken/api.h"', '"math/vec.h"', "<gtest/gtest.h>"], 2),
     "src/render/session.cpp": (['"isa/entry.h"', '"wave/stage.h"', "<thread>"], 1),

@@ -5,7 +5,7 @@
     scripts/make_scene_docs.py --check            say whether docs/scenes.md is what would be written (exit status 1 if not)
     scripts/make_scene_docs.py --render PROGRAM   render the pictures too, with PROGRAM (build/release/norrsken)
 
-Plugins are those of the families' lists (src/FAMILY/*.def). Of each, the host file's block says what its parameters are,
+Plugins are those of src/lists. Of each, the host file's block says what its parameters are,
 the kernel header's block what its model and source are. Pictures are docs/plugin_scenes/FAMILY/NAME.xml, rendered to
 docs/images/plugins/FAMILY_NAME.jpg; a plugin without such a scene has none.
 """
@@ -22,17 +22,17 @@ PICTURES = ROOT / "docs/images/plugins"
 SCENES = ROOT / "docs/plugin_scenes"
 ENLARGED = ("rfilter", "sampler")  # families whose pictures are about single pixels
 
-# Heading, folder, element of the scene file, lists that name its plugins, header with the parameters of the whole family.
+# Heading, folder, element of the scene file, lists (src/lists) that name its plugins, header with the parameters of the whole family.
 FAMILIES = [
-    ("Integrators", "integrator", "integrator", ["plugins.def"], "integrator_host.h"),
-    ("Sensors", "camera", "sensor", ["list.def"], None),
-    ("Films", "film", "film", ["plugins.def"], None),
-    ("Reconstruction filters", "rfilter", "rfilter", ["plugins.def"], None),
-    ("Samplers", "sampler", "sampler", ["plugins.def"], "sampler_host.h"),
-    ("BSDFs", "bsdf", "bsdf", ["list.def", "resolved.def", "adapters.def"], None),
-    ("Textures", "texture", "texture", ["plugins.def", "list.def"], None),
-    ("Emitters", "light", "emitter", ["plugins.def"], "light_host.h"),
-    ("Shapes", "shape", "shape", ["plugins.def"], "mesh_host.h"),
+    ("Integrators", "integrator", "integrator", ["integrator"], "integrator_host.h"),
+    ("Sensors", "camera", "sensor", ["camera"], None),
+    ("Films", "camera", "film", ["film"], None),
+    ("Reconstruction filters", "rfilter", "rfilter", ["rfilter"], None),
+    ("Samplers", "sampler", "sampler", ["sampler"], "sampler_host.h"),
+    ("BSDFs", "bsdf", "bsdf", ["bsdf", "bsdf_resolved", "bsdf_adapter"], None),
+    ("Textures", "texture", "texture", ["texture"], None),
+    ("Emitters", "light", "emitter", ["emitter"], "light_host.h"),
+    ("Shapes", "shape", "shape", ["shape"], "mesh_host.h"),
 ]
 
 
@@ -47,13 +47,11 @@ def header_block(path):
     return lines
 
 
-def plugin_names(folder, lists):
-    names = []
+def plugin_names(lists):
+    names = set()
     for name in lists:
-        path = ROOT / "src" / folder / name
-        if path.exists():
-            names += re.findall(r"^NORRSKEN_\w+\((\w+)", path.read_text(), re.MULTILINE)
-    return sorted(set(names))
+        names.update(re.findall(r"^NORRSKEN_\w+\((\w+)", (ROOT / f"src/lists/{name}.def").read_text(), re.MULTILINE))
+    return sorted(names)
 
 
 def fields(block):
@@ -140,7 +138,7 @@ def plugin_section(folder, element, name):
     if title.rstrip(".") == "host side":
         title = kernel.get("Model", "")
     out = [f"### {name}", "", cell(title[:1].upper() + title[1:])]
-    picture = PICTURES / f"{folder}_{name}.jpg"
+    picture = PICTURES / f"{'film' if element == 'film' else folder}_{name}.jpg"
     if picture.exists():
         out += ["", f"![{element} {name}](images/plugins/{picture.name})"]
     text = render_block(body)
@@ -169,7 +167,7 @@ def page():
            "\"color\" stands for `rgb`, `spectrum` or a grey `float`. A parameter that nobody asks for is an "
            "error, but for [those](#without-effect) that the format's base classes take. A number that may be a texture may "
            "be a color too, whose mean counts."]
-    families = [(heading, folder, element, plugin_names(folder, lists), common)
+    families = [(heading, folder, element, plugin_names(lists), common)
                 for heading, folder, element, lists, common in FAMILIES]
     out += [""] + [f"- **{heading}**: " + ", ".join(f"[{n}](#{n})" for n in names)
                    for heading, _, _, names, _ in families if names]

@@ -9,20 +9,13 @@
 #include <vector>
 
 #include "norrsken/image.h"
+#include "norrsken/samples.h"
 #include "norrsken/scene.h"
 
 namespace norrsken {
 
 /// Most worker threads that a rendering takes.
 inline constexpr int kMaxThreads = 1024;
-
-/// Samples first to end - 1 of every pixel.
-struct SampleRange {
-  std::uint32_t first = 0, end = 0;
-
-  std::uint32_t count() const { return end - first; }
-  friend bool operator==(const SampleRange&, const SampleRange&) = default;
-};
 
 struct RenderOptions {
   std::optional<int> samples_per_pixel = {};  ///< in place of the scene's
@@ -43,12 +36,6 @@ struct RenderOptions {
   /// Render::create refuses it while another Render has it, of this process or another.
   std::string checkpoint = {};
   double checkpoint_seconds = 60;  ///< from one writing to the next
-};
-
-/// Estimated RMSE of an image over its mean. Known as soon as every pixel has two samples, if there is any light.
-struct RelativeError {
-  double value = -1;         ///< -1 while unknown; 0 if no noise was seen, which may be because it is rare
-  double low = 0, high = 0;  ///< holds the true one with a probability of 95 % or more
 };
 
 struct RenderProgress {

@@ -2,11 +2,7 @@
 
 #include "accel/embree_curves.h"
 #include "accel/embree_grid.h"
-#include "shape/bsplinecurve.h"
-#include "shape/cylinder.h"
-#include "shape/disk.h"
-#include "shape/linearcurve.h"
-#include "shape/sdfgrid.h"
+#include "shape/models.h"
 
 namespace norrsken {
 
@@ -15,7 +11,7 @@ bool has_elements(AnalyticKind kind) {
 #define NORRSKEN_ANALYTIC(name, Model) \
   case AnalyticKind::name:             \
     return isa_host::kHasElements<isa_host::Model>;
-#include "shape/list.def"
+#include "lists/analytic_shape.def"
 #undef NORRSKEN_ANALYTIC
     case AnalyticKind::count:
       break;

@@ -6,11 +6,7 @@
 #include "accel/embree_callbacks.h"
 #include "accel/sphere.h"
 #include "math/affine.h"
-#include "shape/bsplinecurve.h"
-#include "shape/cylinder.h"
-#include "shape/disk.h"
-#include "shape/linearcurve.h"
-#include "shape/sdfgrid.h"
+#include "shape/models.h"
 
 namespace norrsken {
 namespace {
@@ -72,7 +68,7 @@ Met meet(const AnalyticRecord& a, const Vec3f& o, const Vec3f& d, float t_max) {
 #define NORRSKEN_ANALYTIC(kind, Model) \
   case AnalyticKind::kind:             \
     return meet_in_place<isa_host::Model>(a, o, d, t_max);
-#include "shape/list.def"
+#include "lists/analytic_shape.def"
 #undef NORRSKEN_ANALYTIC
     case AnalyticKind::count:
       break;

@@ -1,4 +1,4 @@
-// Every model of list.def: sampled directions against the density, weights against values, and how much light comes back.
+// Every model of lists/bsdf.def: sampled directions against the density, weights against values, and how much light comes back.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// Every model of list.def under every set of parameters of bsdf_test_cases.def: what holds sample by sample.
+// Every model of lists/bsdf.def under every set of parameters of bsdf_test_cases.def: what holds sample by sample.
 // bsdf_sampling_test.cpp has what holds on average.
 #include <gtest/gtest.h>
 

@@ -4,17 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "bsdf/conductor.h"
-#include "bsdf/dielectric.h"
-#include "bsdf/diffuse.h"
-#include "bsdf/null.h"
-#include "bsdf/plastic.h"
-#include "bsdf/principled.h"
-#include "bsdf/principledthin.h"
-#include "bsdf/roughconductor.h"
-#include "bsdf/roughdielectric.h"
-#include "bsdf/roughplastic.h"
-#include "bsdf/thindielectric.h"
+#include "bsdf/models.h"
 #include "compile/compile_testing.h"
 
 namespace norrsken::isa_host {
@@ -71,7 +61,7 @@ inline std::unique_ptr<LoadedBsdf> load_bsdf(const SceneTables& tables, Material
 #define NORRSKEN_BSDF(kind, Model) \
   case BsdfKind::kind:             \
     return std::make_unique<LoadedModel<Model>>(reader);
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
     default:
       return nullptr;

@@ -1,4 +1,4 @@
-// For tests: every model of list.def under every set of parameters of bsdf_test_cases.def.
+// For tests: every model of lists/bsdf.def under every set of parameters of bsdf_test_cases.def.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ constexpr bool is_tested(const BsdfCase (&table)[n], std::string_view plugin) {
 #define NORRSKEN_BSDF(kind, Model)                                                                             \
   static_assert(is_tested(kBsdfCaseTable, #kind), "bsdf_test_cases.def needs a NORRSKEN_BSDF_CASE of " #kind); \
   static_assert(is_tested(kFurnaceTable, #kind), "bsdf_test_cases.def needs a NORRSKEN_BSDF_FURNACE of " #kind);
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
 
 inline Vec3f direction(double cos_theta, double phi) {

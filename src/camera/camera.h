@@ -1,4 +1,4 @@
-// What a camera model (src/camera/NAME.h, listed in list.def) gives the kernels.
+// What a camera model (src/camera/NAME.h, listed in lists/camera.def) gives the kernels.
 //
 //   struct Model {
 //     static constexpr bool kUsesLens;  // sample() looks at `lens`

@@ -7,9 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "camera/orthographic.h"
-#include "camera/perspective.h"
-#include "camera/thinlens.h"
+#include "camera/models.h"
 #include "compile/compile_testing.h"
 #include "tests/statistics/statistical_test.h"
 

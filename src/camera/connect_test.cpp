@@ -12,9 +12,7 @@
 #include <random>
 #include <string>
 
-#include "camera/orthographic.h"
-#include "camera/perspective.h"
-#include "camera/thinlens.h"
+#include "camera/models.h"
 #include "compile/compile_testing.h"
 #include "math/frame.h"
 #include "tests/statistics/statistical_test.h"
@@ -72,7 +70,7 @@ void expect_rays_to_be_found_again(const CameraRecord& c) {
   }
 }
 
-/// Two cameras of every model of list.def; a model without any does not link.
+/// Two cameras of every model of lists/camera.def; a model without any does not link.
 template <class Model>
 std::array<CameraRecord, 2> cameras();
 
@@ -99,7 +97,7 @@ std::array<CameraRecord, 2> cameras<Orthographic>() {
 TEST(Connect, FindsTheRaysOfEveryCamera) {
 #define NORRSKEN_CAMERA(kind, Model) \
   for (const CameraRecord& c : cameras<Model>()) expect_rays_to_be_found_again<Model>(c);
-#include "camera/list.def"
+#include "lists/camera.def"
 #undef NORRSKEN_CAMERA
 }
 
@@ -152,7 +150,7 @@ void expect_rays_to_have_the_density_of_connections(statistics::StatisticalTest&
 TEST(Connect, RaysHaveTheDensityOfConnections) {
   statistics::StatisticalTest test;
 #define NORRSKEN_CAMERA(kind, Model) expect_rays_to_have_the_density_of_connections<Model>(test, #kind);
-#include "camera/list.def"
+#include "lists/camera.def"
 #undef NORRSKEN_CAMERA
 }
 

@@ -10,9 +10,8 @@
 #include "base/text.h"
 #include "compile/plugins.h"
 #include "compile/scene_children.h"
-#include "compile/within_memory.h"
-#include "sampler/sampler_host.h"
 #include "scene/constant_spectrum.h"
+#include "scene/within_memory.h"
 #include "tables/accel_memory.h"
 #include "tables/film_memory.h"
 

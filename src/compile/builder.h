@@ -17,9 +17,9 @@
 #include "compile/compile.h"
 #include "compile/geometry_builder.h"
 #include "compile/images.h"
+#include "compile/light_choice.h"
 #include "compile/mesh_attributes.h"
 #include "compile/plugin_table.h"
-#include "light/light_choice.h"
 #include "scene/parameters.h"
 
 namespace norrsken {

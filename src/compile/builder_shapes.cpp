@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "compile/builder.h"
 #include "compile/plugins.h"
-#include "compile/within_memory.h"
+#include "scene/within_memory.h"
 
 namespace norrsken {
 namespace {
@@ -19,7 +19,7 @@ bool is_delta(LightKind kind) {
 #define NORRSKEN_LIGHT(name, Model, is_delta) \
   case LightKind::name:                       \
     return is_delta;
-#include "light/list.def"
+#include "lists/light.def"
 #undef NORRSKEN_LIGHT
     default:
       return false;

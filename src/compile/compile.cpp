@@ -1,7 +1,7 @@
 #include "compile/compile.h"
 
 #include "compile/builder.h"
-#include "compile/within_memory.h"
+#include "scene/within_memory.h"
 
 namespace norrsken {
 

@@ -10,8 +10,8 @@
 
 #include "base/text.h"
 #include "color/srgb.h"
-#include "compile/within_memory.h"
 #include "formats/texel_image.h"
+#include "scene/within_memory.h"
 
 namespace norrsken {
 namespace {

@@ -5,7 +5,7 @@ namespace norrsken {
 bool perturbs_bsdf(std::string_view plugin) {
   return false
 #define NORRSKEN_BSDF_PERTURBING(name, Adapter) || plugin == #name
-#include "bsdf/resolved.def"
+#include "lists/bsdf_resolved.def"
 #undef NORRSKEN_BSDF_PERTURBING
       ;
 }
@@ -13,7 +13,7 @@ bool perturbs_bsdf(std::string_view plugin) {
 bool chooses_bsdf(std::string_view plugin) {
   const bool is_looked_through = false
 #define NORRSKEN_BSDF_RESOLVED(name, Adapter) || plugin == #name
-#include "bsdf/resolved.def"
+#include "lists/bsdf_resolved.def"
 #undef NORRSKEN_BSDF_RESOLVED
       ;
   return is_looked_through && !perturbs_bsdf(plugin);
@@ -22,13 +22,13 @@ bool chooses_bsdf(std::string_view plugin) {
 std::span<const Plugin<CompileBsdf>> bsdf_plugins() {
   static constexpr Plugin<CompileBsdf> kTable[] = {
 #define NORRSKEN_BSDF(kind, Model) {#kind, compile_bsdf_##kind},
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
 #define NORRSKEN_BSDF_RESOLVED(name, Adapter) {#name, compile_bsdf_##name},
-#include "bsdf/resolved.def"
+#include "lists/bsdf_resolved.def"
 #undef NORRSKEN_BSDF_RESOLVED
 #define NORRSKEN_BSDF_ADAPTER(name) {#name, compile_bsdf_##name},
-#include "bsdf/adapters.def"
+#include "lists/bsdf_adapter.def"
 #undef NORRSKEN_BSDF_ADAPTER
   };
   return kTable;
@@ -37,7 +37,7 @@ std::span<const Plugin<CompileBsdf>> bsdf_plugins() {
 std::span<const Plugin<CompileTexture>> texture_plugins() {
   static constexpr Plugin<CompileTexture> kTable[] = {
 #define NORRSKEN_TEXTURE(kind, Model) {#kind, compile_texture_##kind},
-#include "texture/list.def"
+#include "lists/texture.def"
 #undef NORRSKEN_TEXTURE
   };
   return kTable;
@@ -46,7 +46,7 @@ std::span<const Plugin<CompileTexture>> texture_plugins() {
 std::span<const Plugin<CompileShape>> shape_plugins() {
   static constexpr Plugin<CompileShape> kTable[] = {
 #define NORRSKEN_SHAPE(name) {#name, compile_shape_##name},
-#include "shape/plugins.def"
+#include "lists/shape.def"
 #undef NORRSKEN_SHAPE
   };
   return kTable;
@@ -55,7 +55,7 @@ std::span<const Plugin<CompileShape>> shape_plugins() {
 std::span<const Plugin<CompileEmitter>> emitter_plugins() {
   static constexpr Plugin<CompileEmitter> kTable[] = {
 #define NORRSKEN_EMITTER(name) {#name, compile_emitter_##name},
-#include "light/plugins.def"
+#include "lists/emitter.def"
 #undef NORRSKEN_EMITTER
   };
   return kTable;
@@ -64,7 +64,7 @@ std::span<const Plugin<CompileEmitter>> emitter_plugins() {
 std::span<const Plugin<CompileSensor>> sensor_plugins() {
   static constexpr Plugin<CompileSensor> kTable[] = {
 #define NORRSKEN_CAMERA(kind, Model) {#kind, compile_sensor_##kind},
-#include "camera/list.def"
+#include "lists/camera.def"
 #undef NORRSKEN_CAMERA
   };
   return kTable;
@@ -73,7 +73,7 @@ std::span<const Plugin<CompileSensor>> sensor_plugins() {
 std::span<const Plugin<CompileFilm>> film_plugins() {
   static constexpr Plugin<CompileFilm> kTable[] = {
 #define NORRSKEN_FILM(name) {#name, compile_film_##name},
-#include "film/plugins.def"
+#include "lists/film.def"
 #undef NORRSKEN_FILM
   };
   return kTable;
@@ -82,7 +82,7 @@ std::span<const Plugin<CompileFilm>> film_plugins() {
 std::span<const Plugin<CompileSampler>> sampler_plugins() {
   static constexpr Plugin<CompileSampler> kTable[] = {
 #define NORRSKEN_SAMPLER(name) {#name, compile_sampler_##name},
-#include "sampler/plugins.def"
+#include "lists/sampler.def"
 #undef NORRSKEN_SAMPLER
   };
   return kTable;
@@ -91,7 +91,7 @@ std::span<const Plugin<CompileSampler>> sampler_plugins() {
 std::span<const Plugin<CompileRfilter>> rfilter_plugins() {
   static constexpr Plugin<CompileRfilter> kTable[] = {
 #define NORRSKEN_RFILTER(name) {#name, compile_rfilter_##name},
-#include "rfilter/plugins.def"
+#include "lists/rfilter.def"
 #undef NORRSKEN_RFILTER
   };
   return kTable;
@@ -100,7 +100,7 @@ std::span<const Plugin<CompileRfilter>> rfilter_plugins() {
 std::span<const Plugin<CompileIntegrator>> integrator_plugins() {
   static constexpr Plugin<CompileIntegrator> kTable[] = {
 #define NORRSKEN_INTEGRATOR(name) {#name, compile_integrator_##name},
-#include "integrator/plugins.def"
+#include "lists/integrator.def"
 #undef NORRSKEN_INTEGRATOR
   };
   return kTable;

@@ -26,37 +26,37 @@ using CompileRfilter = FilterRecord(Parameters&, Builder&);
 using CompileIntegrator = IntegratorSettings(Parameters&, Builder&);
 
 #define NORRSKEN_BSDF(kind, Model) CompileBsdf compile_bsdf_##kind;
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
 #define NORRSKEN_BSDF_RESOLVED(name, Adapter) CompileBsdf compile_bsdf_##name;
-#include "bsdf/resolved.def"
+#include "lists/bsdf_resolved.def"
 #undef NORRSKEN_BSDF_RESOLVED
 #define NORRSKEN_BSDF_ADAPTER(name) CompileBsdf compile_bsdf_##name;
-#include "bsdf/adapters.def"
+#include "lists/bsdf_adapter.def"
 #undef NORRSKEN_BSDF_ADAPTER
 #define NORRSKEN_TEXTURE(kind, Model) CompileTexture compile_texture_##kind;
-#include "texture/list.def"
+#include "lists/texture.def"
 #undef NORRSKEN_TEXTURE
 #define NORRSKEN_SHAPE(name) CompileShape compile_shape_##name;
-#include "shape/plugins.def"
+#include "lists/shape.def"
 #undef NORRSKEN_SHAPE
 #define NORRSKEN_EMITTER(name) CompileEmitter compile_emitter_##name;
-#include "light/plugins.def"
+#include "lists/emitter.def"
 #undef NORRSKEN_EMITTER
 #define NORRSKEN_CAMERA(kind, Model) CompileSensor compile_sensor_##kind;
-#include "camera/list.def"
+#include "lists/camera.def"
 #undef NORRSKEN_CAMERA
 #define NORRSKEN_FILM(name) CompileFilm compile_film_##name;
-#include "film/plugins.def"
+#include "lists/film.def"
 #undef NORRSKEN_FILM
 #define NORRSKEN_SAMPLER(name) CompileSampler compile_sampler_##name;
-#include "sampler/plugins.def"
+#include "lists/sampler.def"
 #undef NORRSKEN_SAMPLER
 #define NORRSKEN_RFILTER(name) CompileRfilter compile_rfilter_##name;
-#include "rfilter/plugins.def"
+#include "lists/rfilter.def"
 #undef NORRSKEN_RFILTER
 #define NORRSKEN_INTEGRATOR(name) CompileIntegrator compile_integrator_##name;
-#include "integrator/plugins.def"
+#include "lists/integrator.def"
 #undef NORRSKEN_INTEGRATOR
 
 /// Whether hits on the BSDF are looked through (see bsdf/resolved.h) with a new normal, or to one of several models.

@@ -8,9 +8,9 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "compile/compile.h"
-#include "compile/within_memory.h"
 #include "formats/mitsuba_xml.h"
 #include "scene/read_files.h"
+#include "scene/within_memory.h"
 
 namespace norrsken {
 namespace {

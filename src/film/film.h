@@ -13,7 +13,7 @@
 #include "film/sample_set.h"
 #include "film/splats.h"
 #include "norrsken/image.h"
-#include "norrsken/render.h"
+#include "norrsken/samples.h"
 #include "tables/film_view.h"
 #include "tables/layers.h"
 #include "tables/scene_tables.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "norrsken/render.h"
+#include "norrsken/samples.h"
 #include "tables/wave_types.h"
 
 namespace norrsken {

@@ -15,7 +15,7 @@ void run_shade_surface(const SceneView& scene, BsdfKind kind, std::uint32_t hit_
   case BsdfKind::kind:                                                                         \
     shade_surface<Model>(scene, settings, hits, 0, hits.count, slots, shadow_rays, next_rays); \
     break;
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
     default:  // nothing is shaded with those
       break;

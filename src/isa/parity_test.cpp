@@ -272,7 +272,7 @@ TEST(PlainScenes, AreShadedLikeAnyOtherWhateverTheModel) {
   };
 #define NORRSKEN_BSDF(kind, Model) \
   xml += R"(<shape type="sphere"><point name="center" )" + next_place() + R"(/><bsdf type=")" #kind R"("/></shape>)";
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
   ASSERT_LE(placed, 12);
   const TemporaryFolder folder;

@@ -8,11 +8,7 @@
 
 #include "light/area_point.h"
 #include "math/affine.h"
-#include "shape/bsplinecurve.h"
-#include "shape/cylinder.h"
-#include "shape/disk.h"
-#include "shape/linearcurve.h"
-#include "shape/sdfgrid.h"
+#include "shape/models.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -67,7 +63,7 @@ struct AnalyticAreaLight {
       sampled |= of_kind;                                                                             \
     }                                                                                                 \
   }
-#include "shape/list.def"
+#include "lists/analytic_shape.def"
 #undef NORRSKEN_ANALYTIC
     const Float cosine = -dot(direction, world_normal(place, normal));
     return zero_unless(sampled, pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, cosine));
@@ -84,7 +80,7 @@ struct AnalyticAreaLight {
 #define NORRSKEN_ANALYTIC(kind, Model)                                                              \
   if (const Mask of_kind = lanes_of<Model>(scene, AnalyticKind::kind, place, active); any(of_kind)) \
     sample_kind<Model>(u, any(textured), of_kind, local, on_texture, sampled);
-#include "shape/list.def"
+#include "lists/analytic_shape.def"
 #undef NORRSKEN_ANALYTIC
     const Vec3f point = place.world_from_local.point(local.position);
     const Vec3f there = place.local_from_world.magnitude(point);

@@ -13,11 +13,7 @@
 #include <span>
 
 #include "light/light_host.h"
-#include "shape/bsplinecurve.h"
-#include "shape/cylinder.h"
-#include "shape/disk.h"
-#include "shape/linearcurve.h"
-#include "shape/sdfgrid.h"
+#include "shape/models.h"
 
 namespace norrsken {
 namespace {
@@ -212,7 +208,7 @@ bool can_be_sampled(AnalyticKind kind) {
 #define NORRSKEN_ANALYTIC(name, Model) \
   case AnalyticKind::name:             \
     return isa_host::kCanBeSampled<isa_host::Model>;
-#include "shape/list.def"
+#include "lists/analytic_shape.def"
 #undef NORRSKEN_ANALYTIC
     default:
       return false;

@@ -26,7 +26,7 @@ inline EmittedRay emit_from_lights(const SceneView& scene, Vec2f pick, Vec2f pos
 #define NORRSKEN_LIGHT(kind, Model, is_delta)                                  \
   if (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind))) \
     add_emission_of_kind<Model>(LightKind::kind, scene, light, kinds, position, direction, active, ray);
-#include "light/list.def"
+#include "lists/light.def"
 #undef NORRSKEN_LIGHT
   ray.weight = ray.weight * (Float(1.0f) / light_prob(scene, light, active));
   return ray;

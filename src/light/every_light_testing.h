@@ -1,4 +1,4 @@
-// For tests: every kind of light of list.def in every scene of light_test_cases.def.
+// For tests: every kind of light of lists/light.def in every scene of light_test_cases.def.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ constexpr bool is_delta(LightKind light) {
 #define NORRSKEN_LIGHT(kind, Model, is_delta) \
   case LightKind::kind:                       \
     return is_delta;
-#include "light/list.def"
+#include "lists/light.def"
 #undef NORRSKEN_LIGHT
     default:
       return false;
@@ -48,7 +48,7 @@ inline constexpr LightCase kLightCaseTable[] = {
   static_assert(std::any_of(std::begin(kLightCaseTable), std::end(kLightCaseTable),            \
                             [](const LightCase& c) { return c.kind == LightKind::the_kind; }), \
                 "light_test_cases.def needs a line for " #the_kind);
-#include "light/list.def"
+#include "lists/light.def"
 #undef NORRSKEN_LIGHT
 
 /// An environment of 8 x 5 texels: dark and bright, black in places, at a pole too, and one as bright as a sun.

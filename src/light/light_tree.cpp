@@ -13,7 +13,7 @@
 #include <numeric>
 #include <vector>
 
-#include "light/light_choice.h"
+#include "compile/light_choice.h"
 
 namespace norrsken {
 namespace {

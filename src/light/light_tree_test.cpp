@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <random>
 
-#include "light/light_choice.h"
+#include "compile/light_choice.h"
 #include "light/lit_scene_testing.h"
 #include "tests/statistics/statistical_test.h"
 

@@ -1,18 +1,9 @@
 // Next-event estimation over whatever kinds of light the scene has.
 #pragma once
 
-#include "light/analytic_area.h"
-#include "light/constant.h"
-#include "light/directional.h"
-#include "light/directionalarea.h"
-#include "light/envmap.h"
-#include "light/flat_area.h"
 #include "light/light.h"
 #include "light/light_tree.h"
-#include "light/point.h"
-#include "light/projector.h"
-#include "light/sphere_area.h"
-#include "light/spot.h"
+#include "light/models.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -58,7 +49,7 @@ __attribute__((noinline)) inline LightChoice sample_one_of_many_lights(const Sce
 #define NORRSKEN_LIGHT(kind, Model, is_delta)                                  \
   if (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind))) \
     add_light_kind<Model>(LightKind::kind, is_delta, scene, light, kinds, reference, u, active, choice);
-#include "light/list.def"
+#include "lists/light.def"
 #undef NORRSKEN_LIGHT
   return choice;
 }
@@ -92,7 +83,7 @@ inline Float light_pdf_sa(const SceneView& scene, UInt light, Vec3f reference, V
     if (any(of_kind))                                                                                   \
       pdf = select(of_kind, Model::pdf_sa(scene, lanes, reference, direction, distance, of_kind), pdf); \
   }
-#include "light/list.def"
+#include "lists/light.def"
 #undef NORRSKEN_LIGHT
   if (scene.light_nodes != nullptr) return pdf * light_prob_by_place(scene, light, reference, active);
   return pdf * light_prob(scene, light, active);
@@ -106,7 +97,7 @@ inline Vec3f environment_radiance(const SceneView& scene, Vec3f direction, Mask 
 #define NORRSKEN_ENVIRONMENT(kind, Model) \
   case LightKind::kind:                   \
     return Model::radiance(scene, light, direction, active);
-#include "light/environments.def"
+#include "lists/environment.def"
 #undef NORRSKEN_ENVIRONMENT
     default:
       return {Float(0.0f), Float(0.0f), Float(0.0f)};

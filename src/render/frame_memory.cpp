@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "compile/within_memory.h"
 #include "render/wave_arena.h"
+#include "scene/within_memory.h"
 #include "tables/film_memory.h"
 
 namespace norrsken {

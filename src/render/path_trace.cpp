@@ -18,10 +18,10 @@ namespace {
 constexpr const char* kBsdfNames[] = {
     "absorb",
 #define NORRSKEN_BSDF(kind, Model) #kind,
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
 #define NORRSKEN_BSDF_RESOLVED(kind, Adapter) #kind,
-#include "bsdf/resolved.def"
+#include "lists/bsdf_resolved.def"
 #undef NORRSKEN_BSDF_RESOLVED
 };
 

@@ -166,7 +166,7 @@ TEST(Filter, SamplesFollowTheAbsoluteValue) {
 #define NORRSKEN_RFILTER(name)                                                              \
   EXPECT_TRUE(std::ranges::any_of(filters, [](const Known& k) { return k.type == #name; })) \
       << "known_filters() needs " << #name;
-#include "rfilter/plugins.def"
+#include "lists/rfilter.def"
 #undef NORRSKEN_RFILTER
   for (const Known& known : filters) {
     for (const bool border : {true, false}) {

@@ -1,4 +1,4 @@
-// What sampling relies on: the Sobol' points are nets, and the numbers of every plugin of plugins.def are uniform and
+// What sampling relies on: the Sobol' points are nets, and the numbers of every plugin of lists/sampler.def are uniform and
 // independent of each other. (That they do not depend on the register's width is in src/isa/parity_test.cpp.)
 #include "sampler/sampler.h"
 
@@ -70,7 +70,7 @@ struct Plugin {
 void PrintTo(const Plugin& p, std::ostream* out) { *out << p.name; }
 constexpr Plugin kPlugins[] = {
 #define NORRSKEN_SAMPLER(name) {#name},
-#include "sampler/plugins.def"
+#include "lists/sampler.def"
 #undef NORRSKEN_SAMPLER
 };
 

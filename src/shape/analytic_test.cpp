@@ -8,11 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "shape/bsplinecurve.h"
-#include "shape/cylinder.h"
-#include "shape/disk.h"
-#include "shape/linearcurve.h"
-#include "shape/sdfgrid.h"
+#include "shape/models.h"
 #include "tests/statistics/statistical_test.h"
 
 namespace norrsken::isa_host {
@@ -69,7 +65,7 @@ constexpr bool is_among(const ::testing::Types<Tested...>*, auto shape) {
 #define NORRSKEN_ANALYTIC(kind, Model)                                                     \
   static_assert(!kCanBeSampled<Model> || is_among(static_cast<Shapes*>(nullptr), Model{}), \
                 "a shape whose area is sampled has to be among those that are tested here: " #kind);
-#include "shape/list.def"
+#include "lists/analytic_shape.def"
 #undef NORRSKEN_ANALYTIC
 
 TYPED_TEST(Analytic, IsHitWhereDoublePrecisionHitsIt) {

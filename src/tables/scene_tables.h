@@ -11,22 +11,22 @@ namespace norrsken {
 
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// Scattering models as kernels tell them apart. Order and names come from src/bsdf/list.def; `absorb` (no scattering
+/// Scattering models as kernels tell them apart. Order and names come from src/lists/bsdf.def; `absorb` (no scattering
 /// at all, also the back of a one-sided surface) is always 0. Behind the models come the adapters that are looked
 /// through at each hit (a mask, a blend): hits are never shaded with those.
 enum class BsdfKind : std::uint8_t {
   absorb,
 #define NORRSKEN_BSDF(kind, Model) kind,
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
 #define NORRSKEN_BSDF_RESOLVED(kind, Adapter) kind,
-#include "bsdf/resolved.def"
+#include "lists/bsdf_resolved.def"
 #undef NORRSKEN_BSDF_RESOLVED
   count
 };
 inline constexpr std::uint32_t kModelCount = 1
 #define NORRSKEN_BSDF(kind, Model) +1
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
     ;
 
@@ -55,7 +55,7 @@ constexpr BsdfKind material_kind(MaterialWord word) { return static_cast<BsdfKin
 enum class TextureKind : std::uint8_t {
   none,
 #define NORRSKEN_TEXTURE(kind, Model) kind,
-#include "texture/list.def"
+#include "lists/texture.def"
 #undef NORRSKEN_TEXTURE
   count
 };
@@ -72,7 +72,7 @@ constexpr TextureKind texture_kind(TextureWord word) { return static_cast<Textur
 /// Shapes that have a formula of their own and a place, as kernels tell them apart.
 enum class AnalyticKind : std::uint32_t {
 #define NORRSKEN_ANALYTIC(kind, Model) kind,
-#include "shape/list.def"
+#include "lists/analytic_shape.def"
 #undef NORRSKEN_ANALYTIC
   count
 };
@@ -132,7 +132,7 @@ struct InstanceRecord {
 /// What next-event estimation chooses among. An area light is one record per triangle, parallelogram or sphere.
 enum class LightKind : std::uint32_t {
 #define NORRSKEN_LIGHT(kind, Model, is_delta) kind,
-#include "light/list.def"
+#include "lists/light.def"
 #undef NORRSKEN_LIGHT
   count
 };
@@ -172,7 +172,7 @@ struct LightNode {
 /// Camera models as kernels tell them apart.
 enum class CameraKind : std::uint32_t {
 #define NORRSKEN_CAMERA(kind, Model) kind,
-#include "camera/list.def"
+#include "lists/camera.def"
 #undef NORRSKEN_CAMERA
   count
 };
@@ -227,6 +227,9 @@ struct FilmSettings {
            pixel_format == PixelFormat::luminance_alpha;
   }
 };
+
+/// Samples per pixel fit an int.
+inline constexpr std::int64_t kMaxSampleCount = 0x7fffffff;
 
 struct SamplerSettings {
   SamplerKind kind = SamplerKind::sobol;

@@ -1,9 +1,7 @@
 // A model's parameters in lanes: values, or what their texture has at the place.
 #pragma once
 
-#include "texture/bitmap.h"
-#include "texture/checkerboard.h"
-#include "texture/mesh_attribute.h"
+#include "texture/models.h"
 #include "texture/texture.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -17,7 +15,7 @@ inline Vec3f evaluate_texture(const SceneView& scene, UInt words, TexturePoint p
     const Mask of_kind = active & (kind_bits == UInt(make_texture(TextureKind::kind, 0)));            \
     if (any(of_kind)) color = select(of_kind, Model::evaluate(scene, offset, point, of_kind), color); \
   }
-#include "texture/list.def"
+#include "lists/texture.def"
 #undef NORRSKEN_TEXTURE
   return color;
 }

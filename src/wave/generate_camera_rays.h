@@ -1,9 +1,7 @@
 // Stage: the wave's job -> slots and RAYS.
 #pragma once
 
-#include "camera/orthographic.h"
-#include "camera/perspective.h"
-#include "camera/thinlens.h"
+#include "camera/models.h"
 #include "rfilter/filter.h"
 #include "sampler/sampler.h"
 #include "wave/records.h"
@@ -68,7 +66,7 @@ inline void generate_camera_rays(const SceneView& scene, const WaveJob& job, Que
       generate_rays_of<Model>(scene, TabulatedFilter(scene), job, slots, rays); \
     }                                                                           \
     break;
-#include "camera/list.def"
+#include "lists/camera.def"
 #undef NORRSKEN_CAMERA
     case CameraKind::count:
       break;

@@ -85,7 +85,7 @@ __attribute__((noinline)) inline EnteredMap enter_map(const SceneView& scene, UI
     if (any(of_kind))                                                                                          \
       n = select(of_kind, Adapter::normal({scene, parameters.offset, point.texture, of_kind}, outside), n);    \
   }
-#include "bsdf/resolved.def"
+#include "lists/bsdf_resolved.def"
 #undef NORRSKEN_BSDF_PERTURBING
 
   const Vec3f wo = seen.to_local(-direction);

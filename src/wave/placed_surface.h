@@ -4,11 +4,7 @@
 #pragma once
 
 #include "accel/hit.h"
-#include "shape/bsplinecurve.h"
-#include "shape/cylinder.h"
-#include "shape/disk.h"
-#include "shape/linearcurve.h"
-#include "shape/sdfgrid.h"
+#include "shape/models.h"
 #include "tables/wave_types.h"
 #include "wave/records.h"
 
@@ -74,7 +70,7 @@ __attribute__((noinline)) inline PlacedSurface analytic_surface(const SceneView&
     const Mask of_kind = active & (kinds == UInt(static_cast<std::uint32_t>(AnalyticKind::kind))); \
     if (any(of_kind)) local = select(of_kind, surface_of<Model>(table, local_p), local);           \
   }
-#include "shape/list.def"
+#include "lists/analytic_shape.def"
 #undef NORRSKEN_ANALYTIC
 
   PlacedSurface s;

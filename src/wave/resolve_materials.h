@@ -1,10 +1,7 @@
 // Stage: hits of materials that stand before others -> HITS of the models behind them.
 #pragma once
 
-#include "bsdf/blendbsdf.h"
-#include "bsdf/bumpmap.h"
-#include "bsdf/mask.h"
-#include "bsdf/normalmap.h"
+#include "bsdf/models.h"
 #include "sampler/sampler.h"
 #include "wave/generate_camera_rays.h"
 #include "wave/intersect_closest.h"
@@ -49,7 +46,7 @@ NORRSKEN_INLINE void look_behind(const SceneView& scene, const SurfacePoint& sur
     const Mask of_kind = open & (kind_bits == UInt(make_material(BsdfKind::kind, 0)));           \
     if (any(of_kind)) look_behind_adapter<Adapter>(scene, surface, hit, frame, choice, of_kind); \
   }
-#include "bsdf/resolved.def"
+#include "lists/bsdf_resolved.def"
 #undef NORRSKEN_BSDF_RESOLVED
 }
 

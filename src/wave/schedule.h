@@ -11,18 +11,7 @@
 //                    +-------> SLOTS <--- intersect_shadow <--+ SHADOW RAYS
 #pragma once
 
-#include "bsdf/absorb.h"
-#include "bsdf/conductor.h"
-#include "bsdf/dielectric.h"
-#include "bsdf/diffuse.h"
-#include "bsdf/null.h"
-#include "bsdf/plastic.h"
-#include "bsdf/principled.h"
-#include "bsdf/principledthin.h"
-#include "bsdf/roughconductor.h"
-#include "bsdf/roughdielectric.h"
-#include "bsdf/roughplastic.h"
-#include "bsdf/thindielectric.h"
+#include "bsdf/models.h"
 #include "wave/accumulate_film.h"
 #include "wave/generate_camera_rays.h"
 #include "wave/intersect_closest.h"
@@ -41,7 +30,7 @@ inline constexpr std::uint32_t kAllScattering = ~1u;  // every BSDF kind but abs
 /// The BSDF kinds that light sampling finds something of.
 inline constexpr std::uint32_t kSampledByLights = 0u
 #define NORRSKEN_BSDF(kind, Model) | (Model::kDelta ? 0u : 1u << static_cast<std::uint32_t>(BsdfKind::kind))
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
     ;
 
@@ -76,7 +65,7 @@ inline void shade_surfaces(const SceneView& scene, const ShadeSettings& settings
                            WaveCounts& counts) {
 #define NORRSKEN_BSDF(kind, Model) \
   shade_kind<Model>(scene, settings, memory.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory, counts);
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
 }
 
@@ -208,7 +197,7 @@ inline void trace_features(const SceneView& scene, const WaveJob& job, WaveMemor
   shade_features<Absorb>(scene, memory.hits[0], memory.slots);
 #define NORRSKEN_BSDF(kind, Model) \
   shade_features<Model>(scene, memory.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory.slots);
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
 }
 

@@ -47,7 +47,7 @@ NORRSKEN_INLINE CameraConnection connect_point(const SceneView& scene, const Vec
   case CameraKind::kind:                           \
     c = Model::connect(scene.camera, point, lens); \
     break;
-#include "camera/list.def"
+#include "lists/camera.def"
 #undef NORRSKEN_CAMERA
     case CameraKind::count:
       break;
@@ -112,7 +112,7 @@ NORRSKEN_INLINE Vec2f lens_sample(const SceneView& scene, const Sampler& sampler
   const CameraKind camera = scene.camera.kind;
   bool used = false;
 #define NORRSKEN_CAMERA(kind, Model) used = used || (camera == CameraKind::kind && Model::kUsesLens);
-#include "camera/list.def"
+#include "lists/camera.def"
 #undef NORRSKEN_CAMERA
   if (!used) return {Float(0.5f), Float(0.5f)};
   return sampler.sample_2d(key, first_dimension_of_hit(settings.hit_number) + hit_dimension::kLens);

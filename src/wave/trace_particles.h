@@ -62,7 +62,7 @@ inline std::uint32_t trace_particles(const SceneView& scene, const WaveJob& job,
 #define NORRSKEN_BSDF(kind, Model)                                                                                 \
   shade_particles_of_kind<Model>(scene, settings, memory.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory, \
                                  counts);
-#include "bsdf/list.def"
+#include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
     const Queue finished = memory.rays;
     memory.rays = memory.next_rays;

@@ -212,17 +212,17 @@ std::set<std::string> plugins_of_the_lists() {
 #define NORRSKEN_SAMPLER(name) listed.insert("sampler " #name);
 #define NORRSKEN_RFILTER(name) listed.insert("rfilter " #name);
 #define NORRSKEN_INTEGRATOR(name) listed.insert("integrator " #name);
-#include "bsdf/adapters.def"
-#include "bsdf/list.def"
-#include "bsdf/resolved.def"
-#include "camera/list.def"
-#include "film/plugins.def"
-#include "integrator/plugins.def"
-#include "light/plugins.def"
-#include "rfilter/plugins.def"
-#include "sampler/plugins.def"
-#include "shape/plugins.def"
-#include "texture/list.def"
+#include "lists/bsdf.def"
+#include "lists/bsdf_adapter.def"
+#include "lists/bsdf_resolved.def"
+#include "lists/camera.def"
+#include "lists/emitter.def"
+#include "lists/film.def"
+#include "lists/integrator.def"
+#include "lists/rfilter.def"
+#include "lists/sampler.def"
+#include "lists/shape.def"
+#include "lists/texture.def"
   return listed;
 }
 

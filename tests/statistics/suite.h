@@ -59,12 +59,12 @@ inline constexpr int kLightReferences = 2, kLightReceivers = 6;
 /// Plugins.
 inline constexpr int kSamplers = 0
 #define NORRSKEN_SAMPLER(...) +1
-#include "sampler/plugins.def"
+#include "lists/sampler.def"
 #undef NORRSKEN_SAMPLER
     ;
 inline constexpr int kCameras = 0
 #define NORRSKEN_CAMERA(...) +1
-#include "camera/list.def"
+#include "lists/camera.def"
 #undef NORRSKEN_CAMERA
     ;
 

@@ -1,4 +1,4 @@
-#include "light/light_choice.h"
+#include "compile/light_choice.h"
 
 #include <gtest/gtest.h>
 

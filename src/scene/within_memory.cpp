@@ -1,4 +1,4 @@
-#include "compile/within_memory.h"
+#include "scene/within_memory.h"
 
 #include <algorithm>
 #include <new>
