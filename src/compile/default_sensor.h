@@ -1,5 +1,5 @@
 // The sensor of a scene that has none: Mitsuba's convention, so that such a scene shows the same picture.
-// Source: Mitsuba 2 and 3 (src/render/scene.cpp) up to the version that refuses such scenes.
+// Source: Mitsuba 3 (src/render/scene.cpp), in its versions before those that refuse such scenes.
 #pragma once
 
 #include <glm/vec3.hpp>

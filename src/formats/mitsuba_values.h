@@ -47,7 +47,7 @@ std::vector<std::string> transform_step_names();
 /// No element can have such a name.
 inline constexpr std::string_view kLookatOfNumbers = "lookAt ox";
 /// What an axis of <rotate> means that is no unit vector: its direction alone, as in Mitsuba 0.x, or whatever the formula
-/// for unit vectors makes of it, as in Mitsuba 2 and 3.
+/// for unit vectors makes of it, as in Mitsuba 3.
 enum class RotationAxis { direction, as_given };
 /// The matrix of one step.
 std::optional<Property::Transform> read_transform_step(const Element& step, RotationAxis axis,
