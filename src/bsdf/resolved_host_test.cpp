@@ -67,7 +67,7 @@ TEST(MaskHost, Refusals) {
   EXPECT_THAT(messages("mask", ""), ElementsAre("error: bsdf 'mask' has no bsdfs inside [one bsdf]"));
   EXPECT_THAT(messages("mask", kDiffuse + kNull), ElementsAre("error: bsdf 'mask' has 2 bsdfs inside [one bsdf]"));
   EXPECT_THAT(messages("mask", R"(<float name="opacity" value="1.5"/>)" + kDiffuse),
-              ElementsAre("error: 'opacity' is 1.5 [a number from 0 to 1]"));
+              ElementsAre("warning: 'opacity' is 1.5, which is taken for 1 [a number from 0 to 1]"));
   EXPECT_THAT(messages("mask", R"(<string name="opacity" value="1"/>)" + kDiffuse),
               ElementsAre("error: 'opacity' is a string [float, rgb, spectrum]"));
   EXPECT_THAT(messages("mask", R"(<float name="opacty" value="1"/>)" + kDiffuse),
@@ -93,7 +93,7 @@ TEST(BlendHost, Refusals) {
   EXPECT_THAT(messages("blendbsdf", weight + kDiffuse),
               ElementsAre("error: bsdf 'blendbsdf' has 1 bsdf inside [two bsdfs]"));
   EXPECT_THAT(messages("blendbsdf", R"(<float name="weight" value="-1"/>)" + kDiffuse + kNull),
-              ElementsAre("error: 'weight' is -1 [a number from 0 to 1]"));
+              ElementsAre("warning: 'weight' is -1, which is taken for 0 [a number from 0 to 1]"));
   EXPECT_THAT(messages("blendbsdf", R"(<string name="weight" value="a"/>)" + kDiffuse + kNull),
               ElementsAre("error: 'weight' is a string [float, rgb, spectrum]"));
   EXPECT_THAT(messages("blendbsdf", weight + kDiffuse + kNull + R"(<float name="opacity" value="1"/>)"),

@@ -13,7 +13,6 @@
 #include "scene/constant_spectrum.h"
 #include "scene/within_memory.h"
 #include "tables/accel_memory.h"
-#include "tables/film_memory.h"
 
 namespace norrsken {
 namespace {
@@ -222,73 +221,9 @@ auto Builder::compile_chosen(const Node::Child* child, const char* kind, const c
   return settings;
 }
 
-FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options, SourceLocation& place) {
-  FilmSettings settings;
-  Node default_film;
-  default_film.kind = "film";
-  default_film.plugin = "hdrfilm";
-  default_film.location = sensor.node().location;
-  const Node::Child* child = sensor.child("film");
-  const Node& node = child ? *child->node : default_film;
-  const auto* plugin = find_plugin(film_plugins(), node, diagnostics_);
-  if (!plugin) return settings;
-  Parameters p = parameters(node);
-  settings = plugin->compile(p, *this);
-  p.finish();
-
-  // Another size shows the same picture, and a crop window the same part of it.
-  const auto override_side = [&](const char* name, const std::optional<int>& value, int& full, int& offset, int& size) {
-    if (!value) return;
-    const int side = std::clamp(*value, 1, kMaxFilmSide);
-    if (side != *value) {
-      diagnostics_.error({}, fmt::format("{} {} is out of range", name, *value), fmt::format("1 to {}", kMaxFilmSide));
-    }
-    const auto scaled = [&](int x) { return static_cast<int>(std::lround(static_cast<double>(x) * side / full)); };
-    const int begin = std::min(scaled(offset), side - 1), end = std::max(scaled(offset + size), begin + 1);
-    full = side, offset = begin, size = end - begin;
-  };
-  override_side("width", options.width, settings.full_width, settings.crop_x, settings.width);
-  override_side("height", options.height, settings.full_height, settings.crop_y, settings.height);
-  const auto pixels = static_cast<std::uint64_t>(std::int64_t{settings.width} * settings.height);
-  place = options.width || options.height ? SourceLocation{} : node.location;
-  if (pixels > kMaxFilmPixels) {
-    diagnostics_.error(place, fmt::format("a film of {} x {} has {} pixels", settings.width, settings.height, pixels),
-                       fmt::format("up to {} pixels", kMaxFilmPixels));
-  }
-  std::string detail = fmt::format("{} x {}", settings.width, settings.height);
-  if (settings.width != settings.full_width || settings.height != settings.full_height) {
-    detail += fmt::format(" at ({}, {}) of {} x {}", settings.crop_x, settings.crop_y, settings.full_width,
-                          settings.full_height);
-  }
-  describe(node, std::move(detail));
-  return settings;
-}
-
-void Builder::measure_film(const SourceLocation& place, bool reserve) {
-  const FilmSettings& settings = tables().film;
-  SceneInfo::Memory& memory = scene_.info.memory;
-  const std::uint64_t film_bytes = film_bytes_per_pixel(settings, tables().sampler.kind, scene_.layers,
-                                                        tables().integrator.from_lights),
-                      image_bytes = image_bytes_per_pixel(settings, scene_.layers);
-  const auto pixels = static_cast<std::uint64_t>(std::int64_t{settings.width} * settings.height);
-  memory.film = pixels * film_bytes, memory.image = pixels * image_bytes;
-  if (!reserve) return;
-  try {
-    film_memory_ = MemoryReservation(memory.film + memory.image);
-  } catch (const MemoryExceeded& e) {
-    const std::uint64_t left = e.limit - std::min(e.used, e.limit);
-    diagnostics_.error(
-        place,
-        shortage_text(
-            fmt::format("a film of {} x {} pixels with its image needs", settings.width, settings.height).c_str(),
-            e.wanted, left, e.limit),
-        fmt::format("up to {} pixels, as by a smaller --size, or a larger --max-memory",
-                    left / (film_bytes + image_bytes)));
-    throw LoadingStopped{};
-  }
-}
-
-void Builder::override_samples_per_pixel(const LoadOptions& options) {
+void Builder::compile_sampler(Parameters& sensor, const LoadOptions& options) {
+  tables().sampler = compile_chosen(sensor.child("sampler"), "sampler", "sobol", options.sampler, sampler_plugins(),
+                                    scene_.info.sampler);
   if (!options.samples_per_pixel) return;
   if (*options.samples_per_pixel < 1) {
     diagnostics_.error({}, fmt::format("{} samples per pixel", *options.samples_per_pixel),
@@ -296,32 +231,6 @@ void Builder::override_samples_per_pixel(const LoadOptions& options) {
     return;
   }
   tables().sampler.samples_per_pixel = *options.samples_per_pixel;
-}
-
-void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
-  const auto sensors = scene.children("sensor");
-  const Node* chosen = choose_sensor(scene, options.sensor);
-  if (sensors.empty() && is_whole_)
-    diagnostics_.error(scene.node().location, "the scene has no sensor", "<sensor type=\"perspective\">");
-  for (std::size_t i = 0; sensors.size() > 1 && i < sensors.size(); ++i) {
-    const bool is_chosen = sensors[i]->node.get() == chosen;
-    describe(*sensors[i]->node, fmt::format("--sensor {}{}", i, is_chosen ? ", the one that is used" : ""));
-  }
-  if (!chosen) return;
-  const Node& node = *chosen;
-  const auto* plugin = find_plugin(sensor_plugins(), node, diagnostics_);
-  if (!plugin) return;
-  Parameters p = parameters(node);
-  SourceLocation film_place;
-  tables().film = film(p, options, film_place);
-  tables().sampler =
-      compile_chosen(p.child("sampler"), "sampler", "sobol", options.sampler, sampler_plugins(), scene_.info.sampler);
-  override_samples_per_pixel(options);
-  if (!diagnostics_.has_errors()) measure_film(film_place, options.reserve_film);
-  tables().camera = plugin->compile(p, *this, tables().film);
-  view_place_ = p.where("far_clip");
-  refuse_kinds_to_come(p);
-  p.finish();
 }
 
 void Builder::choose_lights() {
@@ -377,19 +286,25 @@ LoadedScene Builder::build(const LoadOptions& options) {
   tables().integrator = compile_chosen(integrator_of_scene(p, inside), "integrator", "path", options.integrator,
                                        integrator_plugins(), scene_.info.integrator);
   compile_sensor(p, options);
-  for (const Node::Child* child : p.children("bsdf")) bsdf(*child->node);
-  for (const char* kind : {"spectrum", "texture"}) {
+  const std::set<const Node*> in_use = nodes_in_use(root);
+  const auto for_each = [&](const char* kind, auto&& compile_it) {
     for (const Node::Child* child : p.children(kind)) {
-      if (!is_constant_spectrum(*child->node)) texture(*child->node);
+      if (in_use.contains(child->node.get()) || is_supported(*child->node, diagnostics_)) compile_it(*child->node);
     }
+  };
+  for_each("bsdf", [&](const Node& node) { bsdf(node); });
+  for (const char* kind : {"spectrum", "texture"}) {
+    for_each(kind, [&](const Node& node) {
+      if (!is_constant_spectrum(node)) texture(node);
+    });
   }
-  const auto shapes = p.children("shape");
-  for (const Node::Child* child : shapes) compile_shape(*child->node);
+  for_each("shape", [&](const Node& node) { compile_shape(node); });
   for (const Node* emitter : emitters_of_scene(p, inside)) compile_emitter(*emitter, kNone);
   take_definitions(p, inside);
   p.finish();
+  compile_default_camera();
   if (!diagnostics_.has_errors()) {
-    if (shapes.empty()) diagnostics_.warning(root.location, "the scene has no shape");
+    if (p.children("shape").empty()) diagnostics_.warning(root.location, "the scene has no shape");
     if (tables().lights.empty()) diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
     tell_what_is_beyond_view();
   }

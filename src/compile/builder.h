@@ -108,6 +108,8 @@ class Builder {
                        bool emission = false);
   ScalarParameter scalar(Parameters& p, std::string_view name, double fallback, double min, double max,
                          Ends ends = Ends::closed);
+  /// A share from 0 to 1: what is out of that range is brought into it, with a warning.
+  ScalarParameter share(Parameters& p, std::string_view name, double fallback);
   /// The texture of a `texture` node; one that several parameters refer to is compiled once.
   Texture texture(const Node& node);
   /// The texture of parameter `name` if its values are in range; else a warning, and one whose values are clamped. What was
@@ -156,7 +158,10 @@ class Builder {
   /// The texture of that name, if it has one, within its range.
   std::optional<Texture> texture_of(Parameters& p, std::string_view name, double min, double max);
   void compile_sensor(Parameters& scene, const LoadOptions& options);
-  void override_samples_per_pixel(const LoadOptions& options);
+  void compile_sampler(Parameters& sensor, const LoadOptions& options);
+  void compile_camera(Parameters& sensor);
+  /// That of a scene without a sensor, once its bounds are known.
+  void compile_default_camera();
   /// `place`: where the film's size comes from.
   FilmSettings film(Parameters& sensor, const LoadOptions& options, SourceLocation& place);
   /// How much memory film and image take; `reserve`: which stays free for them while the scene is loaded.
@@ -198,6 +203,7 @@ class Builder {
   std::map<std::tuple<TextureWord, double, double>, Texture> clamped_textures_;
   std::map<const Node*, const Node*> textures_by_uv_;
   std::optional<Material> default_material_;
+  std::optional<Node> default_sensor_;  ///< of a scene that has none
   bool is_whole_ = true;  ///< whether the scene was read without errors: what is missing is not in the file
   Variation variation_ = Variation::none;  ///< of what is being compiled
   int bsdf_depth_ = 0;

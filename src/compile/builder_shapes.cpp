@@ -71,7 +71,7 @@ void Builder::compile_shape(const Node& node) {
 
 void Builder::remember_if_beyond_view(const Node& node) {
   const GeometryBuilder::Box& box = geometry_.latest();
-  if (box.empty()) return;
+  if (box.empty() || default_sensor_) return;
   const CameraRecord& camera = tables().camera;
   const auto vector = [](const float(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
   const glm::dvec3 forward = vector(camera.forward);

@@ -76,6 +76,12 @@ class GeometryBuilder {
   const Box& latest() const { return latest_; }
   void forget_latest() { latest_ = {}; }
 
+  /// Bounds of all that was added to the world.
+  Box bounds() const {
+    const auto world = boxes_.find(kNone);
+    return world == boxes_.end() ? Box{} : world->second;
+  }
+
   /// Puts spheres and analytic primitives behind the triangles, and tells the bounds of it all.
   void finish(SceneInfo& info);
 

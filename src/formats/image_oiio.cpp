@@ -19,6 +19,7 @@
 #include "base/memory.h"
 #include "color/srgb.h"
 #include "formats/exr_header.h"
+#include "formats/image_channels.h"
 #include "formats/image_size.h"
 
 namespace {
@@ -261,50 +262,6 @@ std::string read(const std::string& path, const std::string& contents, std::uint
   });
 }
 
-/// The channels that make a colour or grey.
-struct ColorChannels {
-  std::vector<int> numbers;
-  bool is_xyz = false;  ///< CIE XYZ in place of red, green, blue
-  std::string remark;   ///< if that is a guess
-};
-
-/// What stands behind a layer's name: "R" of "ViewLayer.Combined.R".
-std::string_view last_name(std::string_view channel) { return channel.substr(channel.rfind('.') + 1); }
-
-/// R, G, B by name, or X, Y, Z, or Y, or the first three or the first one.
-ColorChannels color_channels(const OIIO::ImageSpec& spec) {
-  const auto named = [&](const char* a, const char* b, const char* c) -> std::vector<int> {
-    const int found[3] = {spec.channelindex(a), spec.channelindex(b), spec.channelindex(c)};
-    if (std::ranges::any_of(found, [](int k) { return k < 0; })) return {};
-    return {found[0], found[1], found[2]};
-  };
-  if (auto rgb = named("R", "G", "B"); !rgb.empty()) return {rgb, false, {}};
-  if (auto xyz = named("X", "Y", "Z"); !xyz.empty()) return {xyz, true, {}};
-  if (const int grey = spec.channelindex("Y"); grey >= 0) {
-    const bool has_chroma = spec.channelindex("RY") >= 0 || spec.channelindex("BY") >= 0;
-    return {
-        {grey}, false, has_chroma ? "has colours in channels RY and BY, which are not read: Y is taken for grey" : ""};
-  }
-  ColorChannels first{spec.nchannels >= 3 ? std::vector<int>{0, 1, 2} : std::vector<int>{0}, false, {}};
-  constexpr const char* kColors[] = {"R", "G", "B"};
-  constexpr const char* kGreys[] = {"R", "Y", "V", "L", "A", "grey", "gray", "luminance"};
-  bool is_guess = false;
-  std::string names;
-  for (const int k : first.numbers) {
-    const std::string& name = spec.channelnames[static_cast<std::size_t>(k)];
-    const std::string short_name(last_name(name));
-    const auto is = [&](const char* known) { return OIIO::Strutil::iequals(short_name, known); };
-    is_guess |= first.numbers.size() == 3 ? !is(kColors[k]) : !std::ranges::any_of(kGreys, is);
-    names += (names.empty() ? "" : ", ") + name.substr(0, 100);
-  }
-  if (is_guess) {
-    first.remark = first.numbers.size() == 3
-                       ? "has no channels R, G, B or Y: " + names + " are taken for red, green, blue"
-                       : "has no channels R, G, B or Y: " + names + " is taken for grey";
-  }
-  return first;
-}
-
 template <class T>
 std::string read_channels(OIIO::ImageInput& input, const std::vector<int>& wanted, Array<T>& values) {
   const OIIO::ImageSpec& spec = input.spec();
@@ -335,7 +292,7 @@ std::string read_image_texels(const std::string& path, const std::string& conten
   OIIO::ImageInput& input = *file.input;
   const OIIO::ImageSpec& spec = input.spec();
   if (std::string objection = objection_to(input, contents.size()); !objection.empty()) return objection;
-  const auto [wanted, is_xyz, remark] = color_channels(spec);
+  const auto [wanted, is_xyz, remark] = color_channels(spec.channelnames);
   const bool small = is_integer_of(spec.format, 1);
   image.width = spec.width;
   image.height = spec.height;

@@ -116,12 +116,24 @@ TEST(TexelImage, XyzBecomesSrgb) {
   EXPECT_NEAR(red.values[2], 0, 1e-3);
   EXPECT_NEAR(exr_of({{"X", 0.1805f}, {"Y", 0.0722f}, {"Z", 0.9505f}}).values[2], 1, 1e-3);
   EXPECT_EQ(exr_of({{"Y", 0.5f}}).values, (Array<float>{0.5f})) << "alone it is grey";
+  const TexelImage small = exr_of({{"x", 0.4124f}, {"y", 0.2126f}, {"z", 0.0193f}});
+  EXPECT_EQ(small.values, red.values);
+  EXPECT_EQ(small.remark, "");
+  EXPECT_EQ(exr_of({{"main.X", 0.4124f}, {"main.Y", 0.2126f}, {"main.Z", 0.0193f}}).values, red.values);
 }
 
 TEST(TexelImage, GuessesAtChannelsAreTold) {
   EXPECT_EQ(exr_of({{"depth", 4}}).remark, "has no channels R, G, B or Y: depth is taken for grey");
-  EXPECT_EQ(exr_of({{"N.X", 1}, {"N.Y", 2}, {"N.Z", 3}}).remark,
-            "has no channels R, G, B or Y: N.X, N.Y, N.Z are taken for red, green, blue");
+  EXPECT_EQ(exr_of({{"N.X", 1}, {"N.Y", 2}, {"N.Z", 3}}).remark, "has N.X, N.Y, N.Z, which are taken for CIE X, Y, Z");
+  EXPECT_EQ(exr_of({{"R", 1}, {"G", 2}}).remark, "has no channels R, G, B or Y: R is taken for grey");
+  EXPECT_EQ(exr_of({{"A", 1}, {"R", 2}}).remark, "");
+  const TexelImage layers =
+      exr_of({{"a.R", 1}, {"a.G", 2}, {"a.B", 3}, {"b.R", 4}, {"b.G", 5}, {"b.B", 6}, {"c.Z", 7}});
+  EXPECT_EQ(layers.remark, "has the layers a, b, of which the first is taken");
+  EXPECT_EQ(layers.values, (Array<float>{1, 2, 3}));
+  const TexelImage beside = exr_of({{"R", 1}, {"G", 2}, {"B", 3}, {"b.R", 4}, {"b.G", 5}, {"b.B", 6}});
+  EXPECT_EQ(beside.remark, "");
+  EXPECT_EQ(beside.values, (Array<float>{1, 2, 3}));
   EXPECT_EQ(exr_of({{"Y", 1}, {"RY", 0}, {"BY", 0}}).remark,
             "has colours in channels RY and BY, which are not read: Y is taken for grey");
   EXPECT_EQ(exr_of({{"R", 1}}).remark, "");

@@ -64,6 +64,9 @@ struct Node {
   std::vector<Child> children;
 };
 
+/// "bsdf 'diffuse'"; the scene has no plugin.
+std::string name_of(const Node& node);
+
 /// What an older scene says in other words: "'maxDepth' is 'max_depth'".
 struct SceneChange {
   SourceLocation location;

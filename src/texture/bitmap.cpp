@@ -3,7 +3,7 @@
 // Parameters
 //   filename     string (required): PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR
 //   filter_type  bilinear (default) or nearest
-//   wrap_mode    repeat (default), mirror or clamp
+//   wrap_mode    repeat (default), mirror or clamp; of u or v alone: wrap_mode_u, wrap_mode_v (as in Mitsuba 0.6)
 //   raw          boolean (default false): the numbers as they are stored, such as directions and heights. Otherwise
 //                8-bit and 16-bit integers are decoded from sRGB, but those of a PNG that says that it is linear: a gAMA
 //                chunk of 1 without an sRGB chunk
@@ -14,15 +14,23 @@
 // 65504 (the largest of half precision), and what is no number is 0. EXR: the channels R G B, X Y Z (CIE, turned into sRGB)
 // or Y, of any layer; a warning says which others are taken for them. HDR: RGBE and XYZE, rows and columns in any order;
 // EXPOSURE and GAMMA are not heeded, as in Mitsuba.
-// Stored: to_uv (6 floats), width, height, then words: first texel, stride, byte table, wrap mode, 1 if nearest.
+// Stored: to_uv (6 floats), width, height, then words: first texel, stride, byte table, wrap modes
+// (that of u and 4 times that of v), 1 if nearest.
 #include "compile/plugins.h"
 
 namespace norrsken {
+namespace {
+
+std::uint32_t wrap_number(std::string_view mode) { return mode == "repeat" ? 0 : mode == "mirror" ? 1 : 2; }
+
+}  // namespace
 
 Texture compile_texture_bitmap(Parameters& p, Builder& builder) {
   const std::string filename = p.file("filename");
   const bool nearest = p.choice("filter_type", "bilinear", {"bilinear", "nearest"}) == "nearest";
   const std::string wrap_mode = p.choice("wrap_mode", "repeat", {"repeat", "mirror", "clamp"});
+  const std::uint32_t wrap = wrap_number(p.choice("wrap_mode_u", wrap_mode, {"repeat", "mirror", "clamp"})) +
+                             4 * wrap_number(p.choice("wrap_mode_v", wrap_mode, {"repeat", "mirror", "clamp"}));
   const bool raw = p.boolean("raw", false);
   p.choice("format", "auto", {"auto", "variant", "fp16"});
   p.boolean("accel", true);
@@ -31,7 +39,6 @@ Texture compile_texture_bitmap(Parameters& p, Builder& builder) {
   if (filename.empty()) return {};
   const auto image = builder.images().load(filename, raw, p.where("filename"));
   if (!image) return {};
-  const std::uint32_t wrap = wrap_mode == "repeat" ? 0 : wrap_mode == "mirror" ? 1 : 2;
   const auto texture_of = [&builder, block, wrap, nearest](const StoredImage& stored) {
     ParameterBlock whole = block;
     whole.add(stored.width).add(stored.height);
