@@ -9,7 +9,7 @@
 #include "compile/default_sensor.h"
 #include "compile/plugins.h"
 #include "compile/scene_children.h"
-#include "compile/within_memory.h"
+#include "scene/within_memory.h"
 #include "tables/film_memory.h"
 
 namespace norrsken {
