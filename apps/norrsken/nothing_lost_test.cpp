@@ -214,6 +214,18 @@ TEST_F(NothingLost, ACheckpointBecomesAnImageWhileItIsWritten) {
   EXPECT_EQ(metadata_of("m.exr")["norrsken.relative_error"], metadata_of("a.exr")["norrsken.relative_error"]);
 }
 
+TEST_F(NothingLost, ImpatienceDiscardsNoLargeImage) {
+  // What has been rendered is saved and summed up for a second or so between the two signals and the files.
+  const Words large = {"render",       "hexagon_room", "-Dshadow_rays=1",    "--size", "2000x1000", "--spp", "1000000",
+                       "--checkpoint", "c.ckpt",       "--checkpoint-every", "0.05s",  "-o",        "a.png"};
+  const ProcessResult result =
+      run(large, {.signals = {SIGINT, SIGINT, SIGTERM}, .signal_delay = milliseconds(50), .signal_when = [this] {
+                    return fs::exists(folder_ / "c.ckpt");
+                  }});
+  EXPECT_EQ(result.status, 77) << result.err;
+  EXPECT_TRUE(fs::exists(folder_ / "a.png"));
+}
+
 TEST_F(NothingLost, ImagesSayHowTheyWereMade) {
   const Words command =
       room_ + Words{"--spp", "4", "--seed", "7", "-Dlight=point", "-o", "a.exr", "-o", "a.png", "--json"};

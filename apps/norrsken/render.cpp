@@ -132,7 +132,6 @@ void tell_dropped(const Arguments& arguments, const RenderStatistics& statistics
 
 /// Writes every file that can be written, tells what is wrong with the others, and returns those written.
 std::vector<std::string> write_outputs(const Arguments& arguments, const Render& rendering) {
-  const SavingGuard guard;
   const Image image = rendering.image(arguments.layers || arguments.features);
   std::vector<std::string> written;
   for (const std::string& path : arguments.outputs) {
@@ -284,7 +283,7 @@ ExitStatus render(Arguments arguments) {
   const RenderStatistics statistics = rendering->run([&](const RenderProgress& progress) {
     meter.update(progress);
     if (!progress.checkpoint_error.empty()) meter.warn(progress.checkpoint_error);
-    if (interrupt_requested()) meter.announce("stopping; writing what there is (Ctrl-C again discards it)");
+    if (interrupt_requested()) meter.announce("stopping; writing what there is (Ctrl-C again before that discards it)");
   });
   meter.finish();
 
@@ -355,7 +354,8 @@ void add_render_command(CLI::App& app, Action& action) {
   command->add_flag("--json", arguments->json, "Print one JSON object a line on stdout: start, progress, done");
   command->footer(
       "Ctrl-C, SIGTERM or SIGHUP stops the rendering, writes what there is and exits with status 77; a second one\n"
-      "discards it (not the last checkpoint). SIGUSR1, SIGUSR2, SIGXCPU and SIGALRM, with which batch systems warn, "
+      "before that discards it (not the last checkpoint). SIGUSR1, SIGUSR2, SIGXCPU and SIGALRM, with which batch "
+      "systems warn, "
       "stop\n"
       "it likewise, and discard nothing. The same scene, seed and options give the same image for any number of "
       "threads.\n\n"
