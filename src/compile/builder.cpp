@@ -304,8 +304,10 @@ void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
   const Node* chosen = choose_sensor(scene, options.sensor);
   if (sensors.empty() && is_whole_)
     diagnostics_.error(scene.node().location, "the scene has no sensor", "<sensor type=\"perspective\">");
-  for (std::size_t i = 0; sensors.size() > 1 && i < sensors.size(); ++i) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
     const bool is_chosen = sensors[i]->node.get() == chosen;
+    if (is_chosen) scene_.info.sensor = static_cast<int>(i), scene_.info.sensor_id = chosen->id;
+    if (sensors.size() == 1) continue;
     describe(*sensors[i]->node, fmt::format("--sensor {}{}", i, is_chosen ? ", the one that is used" : ""));
   }
   if (!chosen) return;
