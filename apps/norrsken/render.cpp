@@ -183,125 +183,124 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
                        format_count(static_cast<double>(statistics.samples)));
   } else if (statistics.samples_resumed > 0) {
     text += fmt::format(", {} from the checkpoint", format_count(static_cast<double>(statistics.samples_resumed)));
-    text += ", " + error_text(statistics.error, samples / pixels);
-    text += fmt::format(" ({}, {}, {}, {})", statistics.isa, format_plural(statistics.lanes, "lane"),
-                        format_plural(statistics.threads, "thread"), statistics.accelerator);
-    print_note(text);
-    if (!written.empty()) print_note(fmt::format("wrote {}", fmt::join(written, ", ")));
-    if (!statistics.cancelled) return;
-    const double per_pixel = samples / pixels;
-    const std::optional<int> asked = sample_count(arguments, info);
-    const bool is_saved = !arguments.checkpoint.empty() && statistics.checkpoint_error.empty();
-    const std::string advice = is_saved                       ? "; the same command goes on"
-                               : arguments.checkpoint.empty() ? "; with --checkpoint FILE, the same command would go on"
-                                                              : "";
-    if (!written.empty())
-      print_note(fmt::format("interrupted: the image holds {}{} per pixel{}",
-                             per_pixel < 1 ? fmt::format("{:.2g}", per_pixel) : format_digits(per_pixel),
-                             asked ? " of " + format_plural(*asked, "sample") : " samples", advice));
-    else if (!statistics.has_image)
-      print_note(fmt::format("interrupted before the first {}: no image was written{}",
-                             statistics.samples == 0 ? "sample" : "image was complete", advice));
-    else
-      print_note("interrupted" + advice);
   }
+  text += ", " + error_text(statistics.error, samples / pixels);
+  text += fmt::format(" ({}, {}, {}, {})", statistics.isa, format_plural(statistics.lanes, "lane"),
+                      format_plural(statistics.threads, "thread"), statistics.accelerator);
+  print_note(text);
+  if (!written.empty()) print_note(fmt::format("wrote {}", fmt::join(written, ", ")));
+  if (!statistics.cancelled) return;
+  const double per_pixel = samples / pixels;
+  const std::optional<int> asked = sample_count(arguments, info);
+  const bool is_saved = !arguments.checkpoint.empty() && statistics.checkpoint_error.empty();
+  const std::string advice = is_saved                       ? "; the same command goes on"
+                             : arguments.checkpoint.empty() ? "; with --checkpoint FILE, the same command would go on"
+                                                            : "";
+  if (!written.empty())
+    print_note(fmt::format("interrupted: the image holds {}{} per pixel{}",
+                           per_pixel < 1 ? fmt::format("{:.2g}", per_pixel) : format_digits(per_pixel),
+                           asked ? " of " + format_plural(*asked, "sample") : " samples", advice));
+  else if (!statistics.has_image)
+    print_note(fmt::format("interrupted before the first {}: no image was written{}",
+                           statistics.samples == 0 ? "sample" : "image was complete", advice));
+  else
+    print_note("interrupted" + advice);
+}
 
-  ExitStatus replay(const Arguments& arguments) {
-    if (!arguments.outputs.empty() || !arguments.checkpoint.empty() || !arguments.checkpoint_every.empty() ||
-        !arguments.samples.empty() || arguments.is_open() || arguments.adaptive)
-      throw Failure(
-          ExitStatus::usage,
-          "--pixel prints one sample: -o, --checkpoint, --samples, --target-error, --time and --adaptive have "
-          "no place beside it");
-    LoadOptions options = arguments.scene.load_options();
-    options.reserve_film = false;
-    const Scene scene = load_scene(arguments.scene.scene, options, !arguments.quiet);
-    return replay(scene, arguments.sampling(), arguments.replay, arguments.json);
-  }
+ExitStatus replay(const Arguments& arguments) {
+  if (!arguments.outputs.empty() || !arguments.checkpoint.empty() || !arguments.checkpoint_every.empty() ||
+      !arguments.samples.empty() || arguments.is_open() || arguments.adaptive)
+    throw Failure(ExitStatus::usage,
+                  "--pixel prints one sample: -o, --checkpoint, --samples, --target-error, --time and --adaptive have "
+                  "no place beside it");
+  LoadOptions options = arguments.scene.load_options();
+  options.reserve_film = false;
+  const Scene scene = load_scene(arguments.scene.scene, options, !arguments.quiet);
+  return replay(scene, arguments.sampling(), arguments.replay, arguments.json);
+}
 
-  /// A Failure for options that have no meaning together.
-  void check_combination(const Arguments& arguments) {
-    if (!arguments.checkpoint_every.empty() && arguments.checkpoint.empty())
-      throw Failure(ExitStatus::usage, "--checkpoint-every needs --checkpoint FILE, which is written so often");
-    const auto samples = parse_samples(arguments.samples);
-    if (!samples) return;
-    if (arguments.checkpoint.empty())
-      throw Failure(ExitStatus::usage, "--samples needs --checkpoint FILE, which receives what 'norrsken merge' joins");
-    if (arguments.is_open() || arguments.adaptive)
-      throw Failure(
-          ExitStatus::usage,
-          "--samples takes all samples of a range: --target-error, --time and --adaptive have no place beside it");
-    const int spp = arguments.scene.spp;  // beside a range, how many samples its image is to have in all
-    if (spp > 0 && samples->end > static_cast<std::uint32_t>(spp))
-      throw Failure(ExitStatus::usage, fmt::format("--samples {} ends behind the {} of --spp", arguments.samples,
-                                                   format_plural(spp, "sample")));
-  }
+/// A Failure for options that have no meaning together.
+void check_combination(const Arguments& arguments) {
+  if (!arguments.checkpoint_every.empty() && arguments.checkpoint.empty())
+    throw Failure(ExitStatus::usage, "--checkpoint-every needs --checkpoint FILE, which is written so often");
+  const auto samples = parse_samples(arguments.samples);
+  if (!samples) return;
+  if (arguments.checkpoint.empty())
+    throw Failure(ExitStatus::usage, "--samples needs --checkpoint FILE, which receives what 'norrsken merge' joins");
+  if (arguments.is_open() || arguments.adaptive)
+    throw Failure(
+        ExitStatus::usage,
+        "--samples takes all samples of a range: --target-error, --time and --adaptive have no place beside it");
+  const int spp = arguments.scene.spp;  // beside a range, how many samples its image is to have in all
+  if (spp > 0 && samples->end > static_cast<std::uint32_t>(spp))
+    throw Failure(ExitStatus::usage, fmt::format("--samples {} ends behind the {} of --spp", arguments.samples,
+                                                 format_plural(spp, "sample")));
+}
 
-  /// Tells which of the files that are written are read, too, or are one file, and images that are too large for their
-  /// formats: what the first of that means, or `done`.
-  ExitStatus check_files(const Arguments& arguments, const SceneInfo& info) {
-    const std::vector<FileUse> read = uses_of(info.files, "a file that the scene reads");
-    std::vector<FileUse> taken = read;
-    ExitStatus result = ExitStatus::done;
-    const auto note = [&](ExitStatus status) {
-      if (result == ExitStatus::done) result = status;
-    };
-    if (!arguments.checkpoint.empty()) {
-      for (const std::string& path : checkpoint_files(arguments.checkpoint)) {
-        note(check_written_files({path}, read));
-        taken.push_back({path, path == arguments.checkpoint ? "the checkpoint" : "a file of the checkpoint"});
-      }
+/// Tells which of the files that are written are read, too, or are one file, and images that are too large for their
+/// formats: what the first of that means, or `done`.
+ExitStatus check_files(const Arguments& arguments, const SceneInfo& info) {
+  const std::vector<FileUse> read = uses_of(info.files, "a file that the scene reads");
+  std::vector<FileUse> taken = read;
+  ExitStatus result = ExitStatus::done;
+  const auto note = [&](ExitStatus status) {
+    if (result == ExitStatus::done) result = status;
+  };
+  if (!arguments.checkpoint.empty()) {
+    for (const std::string& path : checkpoint_files(arguments.checkpoint)) {
+      note(check_written_files({path}, read));
+      taken.push_back({path, path == arguments.checkpoint ? "the checkpoint" : "a file of the checkpoint"});
     }
-    note(check_written_files(arguments.outputs, taken));
-    note(check_image_sizes(arguments.outputs, info.width, info.height));
-    return result;
   }
+  note(check_written_files(arguments.outputs, taken));
+  note(check_image_sizes(arguments.outputs, info.width, info.height));
+  return result;
+}
 
-  ExitStatus render(Arguments arguments) {
-    if (arguments.replay.wanted()) return replay(arguments);
-    check_combination(arguments);
-    // A part of the samples is there to be merged, and only shown if that is asked for.
-    if (arguments.outputs.empty() && arguments.samples.empty())
-      arguments.outputs = {default_output(arguments.scene.scene)};
-    arguments.outputs = without_repetitions(arguments.outputs);
-    const ExitStatus outputs = check_outputs(arguments.outputs, arguments.checkpoint);
-    if (!arguments.quiet && outputs == ExitStatus::done) warn_about_useless_options(arguments);
+ExitStatus render(Arguments arguments) {
+  if (arguments.replay.wanted()) return replay(arguments);
+  check_combination(arguments);
+  // A part of the samples is there to be merged, and only shown if that is asked for.
+  if (arguments.outputs.empty() && arguments.samples.empty())
+    arguments.outputs = {default_output(arguments.scene.scene)};
+  arguments.outputs = without_repetitions(arguments.outputs);
+  const ExitStatus outputs = check_outputs(arguments.outputs, arguments.checkpoint);
+  if (!arguments.quiet && outputs == ExitStatus::done) warn_about_useless_options(arguments);
 
-    const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet, outputs);
-    const SceneInfo info = scene.info();
-    if (const ExitStatus status = check_files(arguments, info); status != ExitStatus::done) return status;
-    RenderOptions options = arguments.sampling();
-    options.features = arguments.features;
-    if (!arguments.samples.empty()) options.samples = parse_samples(arguments.samples);
-    if (arguments.scene.spp > 0) options.samples_per_pixel = arguments.scene.spp;
-    options.target_error = parse_share(arguments.target_error).value_or(0);
-    options.seconds = parse_duration(arguments.time).value_or(0);
-    options.adaptive = arguments.adaptive;
-    options.checkpoint = arguments.checkpoint;
-    options.checkpoint_seconds = parse_duration(arguments.checkpoint_every).value_or(options.checkpoint_seconds);
-    const auto rendering = create_render(scene, options, !arguments.quiet);
-    tell_start(arguments, info);
+  const Scene scene = load_scene(arguments.scene.scene, arguments.scene.load_options(), !arguments.quiet, outputs);
+  const SceneInfo info = scene.info();
+  if (const ExitStatus status = check_files(arguments, info); status != ExitStatus::done) return status;
+  RenderOptions options = arguments.sampling();
+  options.features = arguments.features;
+  if (!arguments.samples.empty()) options.samples = parse_samples(arguments.samples);
+  if (arguments.scene.spp > 0) options.samples_per_pixel = arguments.scene.spp;
+  options.target_error = parse_share(arguments.target_error).value_or(0);
+  options.seconds = parse_duration(arguments.time).value_or(0);
+  options.adaptive = arguments.adaptive;
+  options.checkpoint = arguments.checkpoint;
+  options.checkpoint_seconds = parse_duration(arguments.checkpoint_every).value_or(options.checkpoint_seconds);
+  const auto rendering = create_render(scene, options, !arguments.quiet);
+  tell_start(arguments, info);
 
-    const InterruptGuard guard(*rendering);
-    ProgressMeter meter(arguments.verbosity());
-    meter.start("");
-    const RenderStatistics statistics = rendering->run([&](const RenderProgress& progress) {
-      meter.update(progress);
-      if (!progress.checkpoint_error.empty()) meter.warn(progress.checkpoint_error);
-      if (interrupt_requested())
-        meter.announce("stopping; writing what there is (Ctrl-C again before that discards it)");
-    });
-    meter.finish();
+  const InterruptGuard guard(*rendering);
+  ProgressMeter meter(arguments.verbosity());
+  meter.start("");
+  const RenderStatistics statistics = rendering->run([&](const RenderProgress& progress) {
+    meter.update(progress);
+    if (!progress.checkpoint_error.empty()) meter.warn(progress.checkpoint_error);
+    if (interrupt_requested()) meter.announce("stopping; writing what there is (Ctrl-C again before that discards it)");
+  });
+  meter.finish();
 
-    std::vector<std::string> written;
-    if (statistics.has_image) written = write_outputs(arguments, *rendering);
-    if (!statistics.checkpoint_error.empty()) print_error(statistics.checkpoint_error);
-    if (!arguments.quiet) tell_dropped(arguments, statistics);
-    tell_done(arguments, info, statistics, written);
-    const bool all_written = !statistics.has_image || written.size() == arguments.outputs.size();
-    if (!all_written || !statistics.checkpoint_error.empty()) return ExitStatus::io_error;
-    return statistics.cancelled ? ExitStatus::interrupted : ExitStatus::done;
-  }
+  std::vector<std::string> written;
+  if (statistics.has_image) written = write_outputs(arguments, *rendering);
+  if (!statistics.checkpoint_error.empty()) print_error(statistics.checkpoint_error);
+  if (!arguments.quiet) tell_dropped(arguments, statistics);
+  tell_done(arguments, info, statistics, written);
+  const bool all_written = !statistics.has_image || written.size() == arguments.outputs.size();
+  if (!all_written || !statistics.checkpoint_error.empty()) return ExitStatus::io_error;
+  return statistics.cancelled ? ExitStatus::interrupted : ExitStatus::done;
+}
 
 }  // namespace
 
