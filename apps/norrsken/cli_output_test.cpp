@@ -21,7 +21,7 @@ TEST_F(Cli, TerminalsDoNotObeyWhatSomebodyElseWrote) {
   // Escape, the same in eight bits, delete, bell, and half a character.
   const std::string bad = "\x1b[31m\xc2\x9b\x7f\a\xc3";
   write("s.xml", R"(<scene version="3.0.0"><default name="a" value="1"/><sensor type="perspective"/>
-  <shape type="sphere" id="$a"/><emitter type="constant"/></scene>)");
+  <shape type="sphere" id="$a"><float name="radius" value="2"/></shape><emitter type="constant"/></scene>)");
   fs::copy_file(folder_ / "s.xml", folder_ / (bad + ".xml"));
   write(bad + ".exr", "no image");
   const std::vector<std::vector<std::string>> commands = {
@@ -44,7 +44,7 @@ TEST_F(Cli, TerminalsDoNotObeyWhatSomebodyElseWrote) {
       for (const char* control : {"\x1b", "\xc2\x9b", "\x7f", "\a"})
         EXPECT_THAT(*text, Not(HasSubstr(control))) << command[0] << " " << command.size();
     }
-    if (command.back() == "--json") EXPECT_NO_THROW(parse_lines(result.out));
+    if (command.back() == "--json") static_cast<void>(parse_lines(result.out));  // throws if it is none
   }
 }
 

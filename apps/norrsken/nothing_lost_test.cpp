@@ -286,8 +286,8 @@ TEST_F(NothingLost, ACheckpointIsNoImageAndSaysHowItBecomesOne) {
   EXPECT_THAT(told.err, HasSubstr("'norrsken merge c.ckpt -o image.exr' makes an image of it"));
   const ProcessResult again = run(finished);
   EXPECT_EQ(again.status, 0);
-  EXPECT_THAT(again.err, AllOf(HasSubstr("no samples were left to take: the checkpoint holds 6144, "),
-                               Not(HasSubstr("Msamples/s")), HasSubstr("wrote a.exr")));
+  EXPECT_THAT(again.err, AllOf(HasSubstr("no samples were left to take: the checkpoint holds 6.14 k, "),
+                               Not(HasSubstr("Msamples/s")), Not(HasSubstr("0 threads")), HasSubstr("wrote a.exr")));
 }
 
 TEST_F(NothingLost, FilesOfTheSameSamplesDifferInDateAndSecondsAlone) {

@@ -185,8 +185,9 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
     text += fmt::format(", {} from the checkpoint", format_count(static_cast<double>(statistics.samples_resumed)));
   }
   text += ", " + error_text(statistics.error, samples / pixels);
-  text += fmt::format(" ({}, {}, {}, {})", statistics.isa, format_plural(statistics.lanes, "lane"),
-                      format_plural(statistics.threads, "thread"), statistics.accelerator);
+  if (!was_done)
+    text += fmt::format(" ({}, {}, {}, {})", statistics.isa, format_plural(statistics.lanes, "lane"),
+                        format_plural(statistics.threads, "thread"), statistics.accelerator);
   print_note(text);
   if (!written.empty()) print_note(fmt::format("wrote {}", fmt::join(written, ", ")));
   if (!statistics.cancelled) return;
