@@ -85,6 +85,9 @@ class Render {
   /// about ten times a second and once at the end.
   virtual RenderStatistics run(const std::function<void(const RenderProgress&)>& on_progress = {}) = 0;
   virtual void cancel() noexcept = 0;
+  /// Whether samples are being taken at this moment. Otherwise there is nothing to cancel: what they have come to is summed
+  /// up or saved. From any thread, and from signal handlers.
+  virtual bool is_sampling() const noexcept = 0;
 
   /// What has been rendered, asked after `run`: R, G, B; `layers` adds `samples`, `variance.R/G/B` (of the mean),
   /// `error.R/G/B` (its root; both NaN while a pixel has too few samples to tell), `interval.R/G/B` (half the width of the

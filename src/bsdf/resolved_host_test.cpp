@@ -130,6 +130,23 @@ TEST(NormalMapHost, Refusals) {
                           "[flip_invalid_normals, normalmap, use_shadowing_function]"));
 }
 
+TEST(NormalMapHost, SaysThatPathsFromTheLightsFoldNormalsOtherwise) {
+  const std::string scene = kSensor + kEmitter + R"(<shape type="sphere">)";
+  const auto told = [&](const std::string& integrator, const std::string& flips) {
+    return compile_elements("<integrator type=\"" + integrator + "\"/>" + scene +
+                            adapter("normalmap", R"(<rgb name="normalmap" value="0.5, 0.5, 1"/>)" + flips + kDiffuse) +
+                            "</shape>")
+        .messages();
+  };
+  const std::string off = R"(<boolean name="flip_invalid_normals" value="false"/>)";
+  EXPECT_THAT(told("ptracer", ""),
+              ElementsAre("warning: normals that turn away are folded back by where the light is, where 'path' folds "
+                          "them by the viewer: with integrator 'ptracer' the image is another one, mostly brighter "
+                          "[<boolean name=\"flip_invalid_normals\" value=\"false\"/>, or another integrator]"));
+  EXPECT_THAT(told("ptracer", off), IsEmpty());
+  EXPECT_THAT(told("path", ""), IsEmpty());
+}
+
 TEST(NormalMapHost, AsManyInsideEachOtherAsAHitRemembers) {
   const std::string map = R"(<rgb name="normalmap" value="0.5, 0.5, 1"/>)";
   std::string nested = kDiffuse;

@@ -83,8 +83,10 @@ void Builder::measure_film(const SourceLocation& place, bool reserve) {
 void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
   const auto sensors = scene.children("sensor");
   const Node* chosen = choose_sensor(scene, options.sensor);
-  for (std::size_t i = 0; sensors.size() > 1 && i < sensors.size(); ++i) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
     const bool is_chosen = sensors[i]->node.get() == chosen;
+    if (is_chosen) scene_.info.sensor = static_cast<int>(i), scene_.info.sensor_id = chosen->id;
+    if (sensors.size() == 1) continue;
     describe(*sensors[i]->node,
              fmt::format("--sensor {}{}", word_for_sensor(sensors, i), is_chosen ? ", the one that is used" : ""));
   }

@@ -19,8 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestPath = 4096;  // bytes shown in full
 
-std::string error_text(int error) { return std::generic_category().message(error); }
-
 /// Where a chain of symbolic links ends, whether there is something or not.
 fs::path follow_links(fs::path path, std::error_code& code) {
   constexpr int kMaxLinks = 40;  // as Linux has it
@@ -38,6 +36,8 @@ fs::path follow_links(fs::path path, std::error_code& code) {
 }
 
 }  // namespace
+
+std::string error_text(int error) { return std::generic_category().message(error); }
 
 IoStatus write_failure(const std::string& path, const std::string& reason) {
   return {"cannot write " + quoted(path, kLongestPath) + ": " + reason};

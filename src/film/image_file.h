@@ -10,6 +10,9 @@
 
 namespace norrsken {
 
+/// What the system says of an `errno`.
+std::string error_text(int error);
+
 /// "cannot write 'PATH': REASON"
 IoStatus write_failure(const std::string& path, const std::string& reason);
 

@@ -1,8 +1,8 @@
 // has_image_header and read_image_header of include/norrsken/image.h.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <optional>
 
 #include "base/regular_file.h"
 #include "base/text.h"
@@ -17,46 +17,47 @@ constexpr std::string_view kExrMagic("\x76\x2f\x31\x01", 4);
 constexpr std::size_t kLongestHeader = std::size_t{4} << 20;
 constexpr std::size_t kLongestPath = 4096;
 
-/// The first bytes of a regular file, or nothing with `error` set.
-std::optional<std::string> read_begin(const std::string& path, std::size_t most, std::string& error) {
-  const RegularFile file = open_regular_file(path);
-  error = file.error;
-  if (!file.descriptor) return std::nullopt;
-  std::string begin(most, '\0');
+std::string read_at(const RegularFile& file, std::uint64_t at, std::size_t most) {
+  if (at >= file.bytes) return {};
+  std::string bytes(std::min<std::uint64_t>(most, file.bytes - at), '\0');
   std::size_t size = 0;
-  while (size < most) {
-    const ssize_t count = ::read(file.descriptor.get(), begin.data() + size, most - size);
+  while (size < bytes.size()) {
+    const ssize_t count =
+        ::pread(file.descriptor.get(), bytes.data() + size, bytes.size() - size, static_cast<off_t>(at + size));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
     size += static_cast<std::size_t>(count);
   }
-  begin.resize(size);
-  return begin;
+  bytes.resize(size);
+  return bytes;
 }
+
+constexpr std::size_t kLongestMagic = 8;
 
 }  // namespace
 
 bool has_image_header(const std::string& path) {
-  constexpr std::size_t kLongestMagic = 8;
-  std::string error;
-  const auto begin = read_begin(path, kLongestMagic, error);
-  return begin && (begin->starts_with(kExrMagic) || is_png(*begin));
+  const RegularFile file = open_regular_file(path);
+  if (!file.descriptor) return false;
+  const std::string begin = read_at(file, 0, kLongestMagic);
+  return begin.starts_with(kExrMagic) || is_png(begin);
 }
 
 IoStatus read_image_header(const std::string& path, ImageHeader& header) {
   const auto fail = [&](const std::string& reason) {
     return IoStatus{"cannot read " + quoted(path, kLongestPath) + ": " + reason};
   };
-  std::string error;
-  const auto begin = read_begin(path, kLongestHeader, error);
-  if (!begin) return fail((error.starts_with("is ") ? "it " : "") + error);
+  const RegularFile file = open_regular_file(path);
+  if (!file.descriptor) return fail((file.error.starts_with("is ") ? "it " : "") + file.error);
+  const std::string magic = read_at(file, 0, kLongestMagic);
   ImageHeader read;
-  if (begin->starts_with(kExrMagic)) {
-    auto exr = read_exr_header(*begin);
+  if (magic.starts_with(kExrMagic)) {
+    auto exr = read_exr_header(read_at(file, 0, kLongestHeader));
     if (!exr) return fail("its header is damaged, or longer than 4 MiB");
     read = std::move(*exr);
-  } else if (is_png(*begin)) {
-    error = read_png_header(*begin, read);
+  } else if (is_png(magic)) {
+    const std::string error =
+        read_png_header([&](std::uint64_t at, std::size_t most) { return read_at(file, at, most); }, read);
     if (!error.empty()) return fail(error);
   } else {
     return fail("it is neither EXR nor PNG");

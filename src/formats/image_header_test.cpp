@@ -64,6 +64,37 @@ TEST_F(ImageHeaders, NeedNoPixels) {
   EXPECT_EQ(complaint(png.substr(0, png.find("IDAT") + 4)), "");
 }
 
+TEST_F(ImageHeaders, OfPngAreTheTextsBehindThePixelsToo) {
+  const std::string png = write_file("a.png");
+  const auto chunk = [](const std::string& type, const std::string& data) {
+    const std::string body = type + data;
+    std::uint32_t crc = ~0u;
+    for (const char c : body) {
+      crc ^= static_cast<unsigned char>(c);
+      for (int k = 0; k < 8; ++k) crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xedb88320u : 0u);
+    }
+    const auto word = [](std::uint32_t v) {
+      return std::string{static_cast<char>(v >> 24), static_cast<char>(v >> 16), static_cast<char>(v >> 8),
+                         static_cast<char>(v)};
+    };
+    return word(static_cast<std::uint32_t>(data.size())) + body + word(~crc);
+  };
+  const std::string text = chunk("tEXt", std::string("Comment\0behind", 14));
+  std::string changed = png;
+  changed.insert(png.rfind("IEND") - 4, text);
+  ImageHeader header;
+  EXPECT_EQ(complaint(changed, &header), "");
+  EXPECT_EQ(header.metadata["Comment"], "behind");
+  EXPECT_EQ(header.metadata["Software"], "norrsken");
+  // 6 MiB of what nobody reads, in front of the pixels.
+  std::string noisy = changed;
+  noisy.insert(png.find("IDAT") - 4, chunk("noIz", std::string(std::size_t{6} << 20, 'x')));
+  ImageHeader noisy_header;
+  EXPECT_EQ(complaint(noisy, &noisy_header), "");
+  EXPECT_EQ(noisy_header.metadata, header.metadata);
+  EXPECT_EQ(complaint(changed.substr(0, changed.size() - 20), &header), "") << "half a text, behind whole pixels";
+}
+
 /// Every length that could be too large is made so, and every file cut off anywhere.
 TEST_F(ImageHeaders, AreNotBelievedBeforeTheBytesAreThere) {
   const std::string exr = write_file("a.exr");

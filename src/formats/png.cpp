@@ -16,6 +16,8 @@
 namespace norrsken {
 namespace {
 
+constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+
 /// All that the decoder touches and that has a destructor lives outside of the functions that libpng jumps back to.
 struct Job {
   std::string_view left;  ///< of the file
@@ -70,6 +72,33 @@ std::string open(Job& job, std::string_view contents) {
   return job.error;
 }
 
+/// The chunks that say what an image is and what is written on it, from anywhere in the file, as a PNG of no pixels.
+std::string leave_pixels_out(const ReadAt& read_at, std::string& kept) {
+  constexpr std::string_view kWanted[] = {"IHDR", "PLTE", "tRNS", "tEXt", "zTXt", "iTXt"};
+  constexpr std::string_view kNoPixels("\0\0\0\0IDAT\x35\xaf\x06\x1e", 12);
+  constexpr std::size_t kFrame = 12, kMostKept = std::size_t{4} << 20;
+  constexpr int kMostChunks = 1 << 20;
+  kept = read_at(0, kSignature.size());
+  std::uint64_t at = kSignature.size();
+  bool has_pixels = false;
+  for (int chunk = 0; chunk < kMostChunks; ++chunk) {
+    const std::string begin = read_at(at, 8);
+    const std::string_view type = std::string_view(begin).substr(std::min<std::size_t>(begin.size(), 4));
+    has_pixels = has_pixels || type == "IDAT";
+    if (begin.size() < 8 || type == "IEND") break;
+    std::uint64_t size = kFrame;
+    for (int i = 0; i < 4; ++i) size += std::uint64_t{static_cast<unsigned char>(begin[i])} << (24 - 8 * i);
+    if (std::ranges::find(kWanted, type) != std::end(kWanted) && size <= kMostKept - kept.size()) {
+      const std::string whole = read_at(at, size);
+      if (whole.size() == size) kept += whole;
+    }
+    at += size;
+  }
+  if (!has_pixels) return "it is cut off before its pixels";
+  kept += kNoPixels;
+  return {};
+}
+
 std::map<std::string, std::string> texts_of(const Job& job) {
   std::map<std::string, std::string> result;
   png_textp texts = nullptr;
@@ -119,11 +148,13 @@ bool is_linear(const Job& job) {
 
 }  // namespace
 
-bool is_png(std::string_view contents) { return contents.starts_with("\x89PNG\r\n\x1a\n"); }
+bool is_png(std::string_view contents) { return contents.starts_with(kSignature); }
 
-std::string read_png_header(std::string_view begin, ImageHeader& header) {
+std::string read_png_header(const ReadAt& read_at, ImageHeader& header) {
+  std::string without_pixels;
+  if (std::string error = leave_pixels_out(read_at, without_pixels); !error.empty()) return error;
   Job job;
-  if (std::string error = open(job, begin); !error.empty()) return error;
+  if (std::string error = open(job, without_pixels); !error.empty()) return error;
   constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
   if (job.width < 1 || job.height < 1 || job.width > kMost || job.height > kMost) return "its size is wrong";
   header.format = "PNG";

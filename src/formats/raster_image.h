@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -43,8 +44,10 @@ std::string read_png(std::string_view contents, RasterImage& image);
 /// Radiance: flat, and both kinds of runs; RGBE and XYZE; rows and columns in any of the eight orders. What EXPOSURE, GAMMA and
 /// other lines say is not heeded, as in Mitsuba. Ward, "Radiance File Formats", section "Picture File Format (.hdr)".
 std::string read_radiance(std::string_view contents, RasterImage& image);
-/// Its size, channels and texts before the pixels, from the first bytes of a file.
-std::string read_png_header(std::string_view begin, ImageHeader& header);
+/// Bytes of a file from `at` on: `most` of them, or as many as there are.
+using ReadAt = std::function<std::string(std::uint64_t at, std::size_t most)>;
+/// Its size, channels, and texts before and behind the pixels, which are not read.
+std::string read_png_header(const ReadAt& read_at, ImageHeader& header);
 /// TGA: grey, colour and palettes, also run-length encoded. Truevision, "TGA File Format Specification", version 2.0, 1991;
 /// what it calls extension and developer areas is not looked at.
 std::string read_targa(std::string_view contents, RasterImage& image);

@@ -199,4 +199,10 @@ IoStatus merge_renders(const std::vector<std::string>& files, bool layers, Merge
   return {};
 }
 
+bool is_checkpoint(const std::string& path) {
+  const SectionReader::State state = identity_of_render(path).state;
+  return state == SectionReader::State::readable || state == SectionReader::State::other_version ||
+         state == SectionReader::State::damaged;
+}
+
 }  // namespace norrsken

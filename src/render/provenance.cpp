@@ -44,6 +44,7 @@ Metadata settings_of(const Scene& scene, const RenderOptions& options, const std
   Metadata settings = {{"Software", "norrsken " NORRSKEN_VERSION},
                        {"norrsken.scene", scene.tables().file},
                        {"norrsken.scene_hash", info.hash},
+                       {"norrsken.sensor", fmt::format("{} {}", info.sensor, info.sensor_id)},
                        {"norrsken.integrator", info.integrator},
                        {"norrsken.max_depth", fmt::to_string(info.max_depth)},
                        {"norrsken.rr_depth", fmt::to_string(info.rr_depth)},
@@ -54,7 +55,7 @@ Metadata settings_of(const Scene& scene, const RenderOptions& options, const std
                        {"norrsken.accelerator", accelerator}};
   if (!parameters.empty()) settings["norrsken.parameters"] = parameters;
   if (options.adaptive) settings["norrsken.adaptive"] = "true";
-  for (auto& [name, text] : settings) text = printable(text);
+  for (auto& [name, text] : settings) text = printable(trim(text));
   return settings;
 }
 

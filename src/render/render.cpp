@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <limits>
 #include <optional>
@@ -32,6 +33,19 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// While it lives, the flag has this value.
+class Temporarily {
+ public:
+  Temporarily(std::atomic<bool>& flag, bool value) : flag_(flag), before_(flag.exchange(value)) {}
+  ~Temporarily() { flag_.store(before_); }
+  Temporarily(const Temporarily&) = delete;
+  Temporarily& operator=(const Temporarily&) = delete;
+
+ private:
+  std::atomic<bool>& flag_;
+  bool before_;
 };
 
 FilmSettings film_settings(const SceneTables& tables) {
@@ -163,6 +177,7 @@ class RenderSession final : public Render {
   }
 
   void cancel() noexcept override { cancelled_.store(true, std::memory_order_relaxed); }
+  bool is_sampling() const noexcept override { return is_sampling_.load(std::memory_order_relaxed); }
 
   Image image(bool statistics) const override {
     Image image = film_.image(statistics, work_.feature_samples.count());
@@ -191,7 +206,9 @@ class RenderSession final : public Render {
     };
     while (!work_.done() && goes_on()) {
       const Stopwatch since_save;
+      // Whoever looks at the film takes no samples, though its workers do.
       const Crew::Tick tick{tick_interval(), [&] {
+                              const Temporarily looking(is_sampling_, false);
                               if (tell && since_progress.seconds() >= kProgressSeconds) {
                                 since_progress = {};
                                 tell();
@@ -199,11 +216,15 @@ class RenderSession final : public Render {
                               return goes_on() && (!checkpoint_ || since_save.seconds() < checkpoint_seconds_);
                             }};
       if (!has_features_) {
+        const Temporarily sampling(is_sampling_, true);
         crew.run_features(tick);
         has_features_ = work_.features_done();
         watch = {};  // figures, and the time that there is, are those of the image, not of its layers
       }
-      if (has_features_) crew.run(tick);
+      if (has_features_) {
+        const Temporarily sampling(is_sampling_, true);
+        crew.run(tick);
+      }
       made_.seconds = seconds_before_ + watch.seconds();
       save();
     }
@@ -248,7 +269,7 @@ class RenderSession final : public Render {
   double seconds_before_ = 0;  ///< that the checkpoint's samples took
   std::vector<SampleRange> ranges_;
   Metadata metadata_;
-  std::atomic<bool> cancelled_{false};
+  std::atomic<bool> cancelled_{false}, is_sampling_{false};
 };
 
 }  // namespace
