@@ -71,7 +71,10 @@ API_USERS = set(HOST_LAYERS) | {"color", "accel", "isa"}
 LIBRARIES = {
     "hwy/": ["simd"],
     "embree3/": ["accel", "benchmarks"],
-    "OpenImageIO/": ["film", "formats"],
+    "OpenEXR/": ["film", "formats"],
+    "png.h": ["film", "formats"],
+    "jpeglib.h": ["film", "formats"],
+    "tiffio.h": ["formats"],
     "pugixml.hpp": ["formats"],
     "zlib.h": ["formats"],
     "xxhash.h": ["base"],

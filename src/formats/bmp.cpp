@@ -23,7 +23,7 @@ struct Mask {
   bool is_contiguous() const { return bits == 0 || std::has_single_bit(std::uint64_t{most()} + 1); }
   std::uint32_t most() const { return bits == 0 ? 0 : bits >> std::countr_zero(bits); }
   std::uint8_t of(std::uint32_t pixel) const {
-    return bits == 0 ? std::uint8_t{0} : byte_from((pixel & bits) >> std::countr_zero(bits), most());
+    return bits == 0 ? std::uint8_t{0} : scaled_integer<std::uint8_t>((pixel & bits) >> std::countr_zero(bits), most());
   }
 };
 

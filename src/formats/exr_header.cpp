@@ -114,18 +114,19 @@ class Block {
 
 }  // namespace
 
-bool exr_header_fits(std::string_view file) {
+std::optional<std::uint64_t> exr_block_bytes(std::string_view file) {
   constexpr std::int32_t kMultipart = 0x1000;
   // Deflate makes at most 1032 bytes of one (zlib's manual).
   const double most_at_once = std::max(double{1 << 26}, 1032 * static_cast<double>(file.size()));
   Bytes bytes(file);
   const auto magic = bytes.take<std::int32_t>(), version = bytes.take<std::int32_t>();
-  if (!magic || !version) return false;
+  if (!magic || !version) return std::nullopt;
   // A header ends with an empty name, the headers of several parts with an empty header.
   Block block;
+  double most = 0;
   for (bool begins = true; !bytes.empty();) {
     if (bytes.front() == '\0') {
-      if (begins || (*version & kMultipart) == 0) return true;
+      if (begins || (*version & kMultipart) == 0) return static_cast<std::uint64_t>(most);
       begins = true;
       block = {};
       bytes.take(1);
@@ -133,16 +134,17 @@ bool exr_header_fits(std::string_view file) {
     }
     begins = false;
     const auto name = bytes.take_word();
-    if (!name) return false;
+    if (!name) return std::nullopt;
     const auto type = bytes.take_word();
     const auto size = bytes.take<std::int32_t>();
-    if (!type || !size || *size < 0) return false;
+    if (!type || !size || *size < 0) return std::nullopt;
     const auto value = bytes.take(static_cast<std::size_t>(*size));
-    if (!value || !fits(*type, *value)) return false;
+    if (!value || !fits(*type, *value)) return std::nullopt;
     block.look_at(*name, *value);
-    if (block.bytes() > most_at_once) return false;
+    most = std::max(most, block.bytes());
+    if (most > most_at_once) return std::nullopt;
   }
-  return false;
+  return std::nullopt;
 }
 
 std::optional<ImageHeader> read_exr_header(std::string_view begin) {

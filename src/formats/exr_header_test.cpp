@@ -21,21 +21,21 @@ std::string attribute(const std::string& size, const std::string& type = "string
 /// Whether a header with this attribute, and a text behind it, fits.
 bool fits(const std::string& type, const std::string& value) {
   const std::string size{static_cast<char>(value.size()), 0, 0, 0};
-  return exr_header_fits(kStart + attribute(size, type, value) + attribute("\3\0\0\0"s) + '\0');
+  return exr_block_bytes(kStart + attribute(size, type, value) + attribute("\3\0\0\0"s) + '\0').has_value();
 }
 
 TEST(ExrHeader, AttributesAreNoLongerThanTheFile) {
-  EXPECT_TRUE(exr_header_fits(kStart + attribute("\3\0\0\0"s) + '\0'));
-  EXPECT_FALSE(exr_header_fits(kStart + attribute("\4\0\0\0"s)));
-  EXPECT_FALSE(exr_header_fits(kStart + attribute("\0\0\0\x70"s) + '\0'));
-  EXPECT_FALSE(exr_header_fits(kStart + attribute("\xff\xff\xff\xff"s) + '\0'));
-  EXPECT_FALSE(exr_header_fits(kStart + "a"));
-  EXPECT_FALSE(exr_header_fits(kStart)) << "the header does not end";
-  EXPECT_FALSE(exr_header_fits("v/1"));
+  EXPECT_TRUE(exr_block_bytes(kStart + attribute("\3\0\0\0"s) + '\0'));
+  EXPECT_FALSE(exr_block_bytes(kStart + attribute("\4\0\0\0"s)));
+  EXPECT_FALSE(exr_block_bytes(kStart + attribute("\0\0\0\x70"s) + '\0'));
+  EXPECT_FALSE(exr_block_bytes(kStart + attribute("\xff\xff\xff\xff"s) + '\0'));
+  EXPECT_FALSE(exr_block_bytes(kStart + "a"));
+  EXPECT_FALSE(exr_block_bytes(kStart)) << "the header does not end";
+  EXPECT_FALSE(exr_block_bytes("v/1"));
   // Of a file of several parts the second header counts as well.
   const std::string parts = "\x76\x2f\x31\x01\x02\x10\0\0"s + attribute("\3\0\0\0"s) + '\0';
-  EXPECT_TRUE(exr_header_fits(parts + attribute("\3\0\0\0"s) + "\0\0"s));
-  EXPECT_FALSE(exr_header_fits(parts + attribute("\0\0\0\x70"s) + "\0\0"s));
+  EXPECT_TRUE(exr_block_bytes(parts + attribute("\3\0\0\0"s) + "\0\0"s));
+  EXPECT_FALSE(exr_block_bytes(parts + attribute("\0\0\0\x70"s) + "\0\0"s));
 }
 
 std::string named(const std::string& name, const std::string& type, const std::string& value) {
@@ -50,17 +50,21 @@ std::string numbers(std::initializer_list<std::int32_t> values) {
 TEST(ExrHeader, WhatIsDecodedAtOnceIsWhatAFileCanHold) {
   const std::string half = named("channels", "chlist", "Y\0"s + numbers({1, 0, 1, 1}) + '\0');
   const auto rows = [&](std::int32_t right, char compression, std::size_t behind = 0) {
-    return exr_header_fits(kStart + half + named("compression", "compression", {compression}) +
-                           named("dataWindow", "box2i", numbers({-1, 0, right, 0})) + '\0' + std::string(behind, 'x'));
+    return exr_block_bytes(kStart + half + named("compression", "compression", {compression}) +
+                           named("dataWindow", "box2i", numbers({-1, 0, right, 0})) + '\0' + std::string(behind, 'x'))
+        .has_value();
   };
   // 64 MiB are 32 rows of 1 Mi halves.
   EXPECT_TRUE(rows((1 << 20) - 2, 6));
+  EXPECT_EQ(exr_block_bytes(kStart + half + named("compression", "compression", "\3") +
+                            named("dataWindow", "box2i", numbers({-1, 0, 98, 0})) + '\0'),
+            100u * 16 * 2);
   EXPECT_FALSE(rows((1 << 20) - 1, 6));
   EXPECT_TRUE(rows((1 << 20) - 1, 6, 66000)) << "of which deflate makes more";
   EXPECT_TRUE(rows((1 << 20) - 1, 3)) << "ZIP takes 16 rows";
   EXPECT_FALSE(rows(std::numeric_limits<std::int32_t>::max(), 0));
   const auto tile = [&](std::int32_t size) {
-    return exr_header_fits(kStart + half + named("tiles", "tiledesc", numbers({size, size}) + '\0') + '\0');
+    return exr_block_bytes(kStart + half + named("tiles", "tiledesc", numbers({size, size}) + '\0') + '\0').has_value();
   };
   EXPECT_TRUE(tile(4096));
   EXPECT_FALSE(tile(8192));

@@ -6,6 +6,7 @@
 
 #include "base/regular_file.h"
 #include "base/text.h"
+#include "formats/exr.h"
 #include "formats/exr_header.h"
 #include "formats/raster_image.h"
 #include "norrsken/image.h"
@@ -13,7 +14,6 @@
 namespace norrsken {
 namespace {
 
-constexpr std::string_view kExrMagic("\x76\x2f\x31\x01", 4);
 constexpr std::size_t kLongestHeader = std::size_t{4} << 20;
 constexpr std::size_t kLongestPath = 4096;
 
@@ -40,7 +40,7 @@ bool has_image_header(const std::string& path) {
   constexpr std::size_t kLongestMagic = 8;
   std::string error;
   const auto begin = read_begin(path, kLongestMagic, error);
-  return begin && (begin->starts_with(kExrMagic) || is_png(*begin));
+  return begin && (is_exr(*begin) || is_png(*begin));
 }
 
 IoStatus read_image_header(const std::string& path, ImageHeader& header) {
@@ -51,7 +51,7 @@ IoStatus read_image_header(const std::string& path, ImageHeader& header) {
   const auto begin = read_begin(path, kLongestHeader, error);
   if (!begin) return fail((error.starts_with("is ") ? "it " : "") + error);
   ImageHeader read;
-  if (begin->starts_with(kExrMagic)) {
+  if (is_exr(*begin)) {
     auto exr = read_exr_header(*begin);
     if (!exr) return fail("its header is damaged, or longer than 4 MiB");
     read = std::move(*exr);

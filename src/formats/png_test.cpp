@@ -101,7 +101,7 @@ TEST(Png, SixteenBitsAreKept) {
   EXPECT_TRUE(texels.is_encoded);
   EXPECT_EQ(texels.values, (Array<float>{258.0f / 65535, 1}));
   Image channels;
-  ASSERT_EQ(read_raster_image(contents, 1 << 10, channels), "");
+  ASSERT_EQ(read_image_contents(contents, 1 << 10, channels), "");
   EXPECT_EQ(channels.find("Y")->values, (std::vector<float>{linear_from_srgb(258.0f / 65535), 1}));
 }
 

@@ -60,7 +60,7 @@ TEST(Radiance, RowsAndColumnsComeInAnyOrder) {
     for (const int value : order) pixels += grey(value);
     EXPECT_EQ(reds(picture(size, pixels)), picture_rows) << size;
     TexelImage texels;
-    ASSERT_EQ(read_texels("a.hdr", picture(size, pixels), texels), "");
+    ASSERT_EQ(read_texels(picture(size, pixels), texels), "");
     EXPECT_EQ(texels.width, 3);
     EXPECT_EQ(texels.height, 2);
   }
@@ -129,7 +129,7 @@ TEST(Radiance, MemoryIsCounted) {
   const std::string file = picture("-Y 2 +X 2", grey(1) + grey(2) + grey(3) + grey(4));
   const MemoryScope scope(std::make_shared<MemoryBudget>(63));  // 4 bytes and 3 floats a pixel
   TexelImage image;
-  EXPECT_THROW(read_texels("a.hdr", file, image), MemoryExceeded);
+  EXPECT_THROW(read_texels(file, image), MemoryExceeded);
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <memory>
-#include <new>
 #include <utility>
 
 #include "color/srgb.h"
@@ -12,10 +10,17 @@
 namespace norrsken {
 namespace {
 
-std::string read(std::string_view contents, RasterImage& image) {
-  if (is_png(contents)) return read_png(contents, image);
-  if (is_radiance(contents)) return read_radiance(contents, image);
-  return is_bmp(contents) ? read_bmp(contents, image) : read_targa(contents, image);
+struct Format {
+  bool (*is_it)(std::string_view contents);
+  std::string (*read)(std::string_view contents, RasterImage& image);
+};
+constexpr Format kFormats[] = {{is_png, read_png},    {is_jpeg, read_jpeg}, {is_radiance, read_radiance},
+                               {is_tiff, read_tiff},  {is_pnm, read_pnm},   {is_bmp, read_bmp},
+                               {is_targa, read_targa}};
+
+const Format* format_of(std::string_view contents) {
+  const auto* found = std::ranges::find_if(kFormats, [&](const Format& format) { return format.is_it(contents); });
+  return found == std::end(kFormats) ? nullptr : found;
 }
 
 /// Channels that are colour or grey.
@@ -49,14 +54,11 @@ void add_channels(const RasterImage& read, const Array<T>& values, float most, I
 
 }  // namespace
 
-bool is_raster_image(std::string_view contents) {
-  return is_bmp(contents) || is_png(contents) || is_radiance(contents) || is_targa(contents);
-}
+bool is_raster_image(std::string_view contents) { return format_of(contents) != nullptr; }
 
-std::string read_raster_image(std::string_view contents, std::uint64_t most_bytes, Image& image) try {
-  const MemoryScope scope(std::make_shared<MemoryBudget>(most_bytes));
+std::string read_raster_image(std::string_view contents, Image& image) {
   RasterImage raster;
-  if (std::string error = read(contents, raster); !error.empty()) return error;
+  if (std::string error = format_of(contents)->read(contents, raster); !error.empty()) return error;
   const MemoryReservation floats((raster.bytes.size() + raster.words.size() + raster.floats.size()) * sizeof(float));
   image.width = raster.width;
   image.height = raster.height;
@@ -69,15 +71,11 @@ std::string read_raster_image(std::string_view contents, std::uint64_t most_byte
     add_channels(raster, raster.bytes, 255, image);
   }
   return {};
-} catch (const MemoryExceeded& exceeded) {
-  return exceeded.what();
-} catch (const std::bad_alloc&) {
-  return "not enough memory";
 }
 
-std::string read_raster_texels(std::string_view contents, TexelImage& image) try {
+std::string read_raster_texels(std::string_view contents, TexelImage& image) {
   RasterImage raster;
-  if (std::string error = read(contents, raster); !error.empty()) return error;
+  if (std::string error = format_of(contents)->read(contents, raster); !error.empty()) return error;
   image.width = raster.width;
   image.height = raster.height;
   image.channels = color_channels(raster);
@@ -89,9 +87,8 @@ std::string read_raster_texels(std::string_view contents, TexelImage& image) try
   image.values = std::move(raster.floats);
   image.values.reserve(raster.words.size());
   for (const std::uint16_t word : raster.words) image.values.push_back(static_cast<float>(word) / 65535.0f);
+  image.remark = std::move(raster.remark);
   return {};
-} catch (const std::bad_alloc&) {
-  return "not enough memory";
 }
 
 }  // namespace norrsken

@@ -326,10 +326,10 @@ TEST(RasterImage, BecomesChannelsOfLinearColourAndTexelsWithoutAlpha) {
   EXPECT_EQ(image.find("R")->values, (std::vector<float>{linear_from_srgb(1 / 255.0f), linear_from_srgb(4 / 255.0f)}));
   EXPECT_EQ(image.find("B")->values, (std::vector<float>{linear_from_srgb(3 / 255.0f), linear_from_srgb(6 / 255.0f)}));
   TexelImage texels;
-  ASSERT_EQ(read_texels(path, contents, texels), "");
+  ASSERT_EQ(read_texels(contents, texels), "");
   EXPECT_EQ(texels.channels, 3);
   EXPECT_EQ(texels.bytes, (Bytes8{1, 2, 3, 4, 5, 6}));
-  ASSERT_EQ(read_texels(path, TgaFile{.type = 3, .bits = 16, .pixels = "\1\2\3\4"}.text(), texels), "");
+  ASSERT_EQ(read_texels(TgaFile{.type = 3, .bits = 16, .pixels = "\1\2\3\4"}.text(), texels), "");
   EXPECT_EQ(texels.channels, 1);
   EXPECT_EQ(texels.bytes, (Bytes8{1, 3}));
 }
@@ -337,8 +337,8 @@ TEST(RasterImage, BecomesChannelsOfLinearColourAndTexelsWithoutAlpha) {
 TEST(RasterImage, MemoryIsCounted) {
   const std::string contents = TgaFile{.pixels = "\3\2\1\6\5\4"}.text();
   Image image;
-  EXPECT_EQ(read_raster_image(contents, 6 + 24, image), "");
-  EXPECT_NE(read_raster_image(contents, 6 + 23, image), "");
+  EXPECT_EQ(read_image_contents(contents, 6 + 24, image), "");
+  EXPECT_NE(read_image_contents(contents, 6 + 23, image), "");
   const auto budget = std::make_shared<MemoryBudget>(5);
   const MemoryScope scope(budget);
   TexelImage texels;

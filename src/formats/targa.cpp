@@ -62,7 +62,7 @@ void append_color(const std::uint8_t* stored, int bits, Array<std::uint8_t>& byt
     return;
   }
   const unsigned word = stored[0] | stored[1] << 8;
-  for (const int shift : {10, 5, 0}) bytes.push_back(byte_from(word >> shift & 31, 31));
+  for (const int shift : {10, 5, 0}) bytes.push_back(scaled_integer<std::uint8_t>(word >> shift & 31, 31));
 }
 
 /// Appends a stored pixel. False if it has a colour that the palette has not.

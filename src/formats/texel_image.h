@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "base/memory.h"
+#include "norrsken/image.h"
 
 namespace norrsken {
 
@@ -22,8 +24,11 @@ struct TexelImage {
   std::string remark;
 };
 
-/// Reads an image out of a file's `contents`; `path` is for its extension. Empty, or what is wrong: a header that promises
-/// more than the file can hold is. What the image and its decoder take is counted; may throw MemoryExceeded.
-std::string read_texels(const std::string& path, const std::string& contents, TexelImage& image);
+/// Reads an image out of a file's `contents`, which tell its format. Empty, or what is wrong: a header that promises more
+/// than the file can hold is. What the image and its decoder take is counted; may throw MemoryExceeded.
+std::string read_texels(std::string_view contents, TexelImage& image);
+
+/// What `read_image` does with the contents of a file. Empty, or what is wrong; `image` changes on success only.
+std::string read_image_contents(std::string_view contents, std::uint64_t most_bytes, Image& image);
 
 }  // namespace norrsken
