@@ -1,9 +1,9 @@
 // Image files of every format that is read, as `norrsken compare` reads them and as textures are read. The libraries behind
 // the readers are not instrumented.
-#include "formats/exr_header.h"
-#include "formats/raster_image.h"
-#include "formats/texel_image.h"
 #include "fuzz/fuzz.h"
+#include "image/exr_header.h"
+#include "image/raster_image.h"
+#include "image/texel_image.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace norrsken;

@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "color/srgb.h"
 #include "compile/within_memory.h"
-#include "formats/texel_image.h"
+#include "image/texel_image.h"
 
 namespace norrsken {
 namespace {

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "film/image_file.h"
+#include "base/atomic_file.h"
 
 namespace norrsken {
 namespace {
