@@ -105,6 +105,19 @@ class FirstPart {
     return {};
   }
 
+  /// What a user should know where the picture is larger or smaller than the pixels that are there.
+  std::string window_remark() const {
+    const Imath::Box2i &data = header().dataWindow(), &display = header().displayWindow();
+    if (data == display) return {};
+    const auto text = [](const Imath::Box2i& window) {
+      const std::string size =
+          size_text(std::int64_t{window.max.x} - window.min.x + 1, std::int64_t{window.max.y} - window.min.y + 1);
+      return size + " at " + std::to_string(window.min.x) + "," + std::to_string(window.min.y);
+    };
+    return "has a data window of " + text(data) + " in a display window of " + text(display) +
+           ": the data window is taken for the whole image";
+  }
+
   /// Reads these channels in blocks of rows; `grow(rows)` is asked for the room before, which must not move.
   template <class Grow>
   void read(const std::vector<Plane>& planes, const Grow& grow) {
@@ -234,7 +247,7 @@ std::string read_exr_texels(std::string_view contents, TexelImage& image) {
     image.width = static_cast<int>(part.width());
     image.height = static_cast<int>(part.height());
     image.channels = static_cast<int>(count);
-    image.remark = colors.remark;
+    image.remark = colors.remark.empty() ? part.window_remark() : colors.remark;
     image.values.reserve(part.pixels() * count);
     std::vector<Plane> planes;
     for (std::size_t c = 0; c < count; ++c) planes.push_back({colors.names[c], image.values.data() + c, count});

@@ -170,6 +170,10 @@ TEST(Exr, TexelsAreColoursOrGreys) {
   ASSERT_EQ(
       read_exr_texels(ExrFile{.channels = {"B", "G", "R", "depth.Z"}, .type = Imf::HALF, .left = 3}.text(), texels),
       "");
+  EXPECT_EQ(
+      texels.remark,
+      "has a data window of 45x39 at 3,0 in a display window of 200x100 at 0,0: the data window is taken for the whole "
+      "image");
   EXPECT_EQ(texels.channels, 3);
   EXPECT_FALSE(texels.is_encoded);
   ASSERT_EQ(texels.values.size(), static_cast<std::size_t>(kWidth * kHeight * 3));

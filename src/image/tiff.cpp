@@ -362,6 +362,11 @@ std::string read_tiff(std::string_view contents, RasterImage& image) {
   if (!header.has(PHOTOMETRIC_RGB) && header.color_samples() == 3) {
     image.remark = "has several channels of grey: the first three are taken for red, green, blue";
   }
+  const int orientation = field<std::uint16_t>(tiff.get(), TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+  if (orientation != ORIENTATION_TOPLEFT) {
+    image.remark = "says that it is to be turned (orientation " + std::to_string(orientation) +
+                   " in place of 1): it is taken as it is stored";
+  }
   if (image.is_linear) return read_floats(tiff.get(), file, header, image);
   return header.bits <= 8 ? read_integers(tiff.get(), file, header, image, image.bytes)
                           : read_integers(tiff.get(), file, header, image, image.words);

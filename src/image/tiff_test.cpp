@@ -185,6 +185,14 @@ TEST(Tiff, WhatIsNoColourIsAlphaOrLeftOut) {
   EXPECT_EQ(color.remark, "");
 }
 
+TEST(Tiff, OrientationIsNotHeededAndTold) {
+  const RasterImage image =
+      tiff({.rows = {"\1\2"}, .more = [](TIFF* to) { TIFFSetField(to, TIFFTAG_ORIENTATION, ORIENTATION_RIGHTTOP); }});
+  EXPECT_EQ(image.bytes, (Bytes8{1, 2}));
+  EXPECT_EQ(image.remark, "says that it is to be turned (orientation 6 in place of 1): it is taken as it is stored");
+  EXPECT_EQ(tiff({.rows = {"\1\2"}}).remark, "");
+}
+
 /// A picture of 37 x 21 whose values differ, in rows of pixels or of channels.
 TiffFile made_up(int samples, bool is_planar, int colors) {
   TiffFile file{.width = 37, .height = 21, .samples = samples, .colors = colors, .is_planar = is_planar};
