@@ -97,6 +97,28 @@ TEST(Jpeg, WhatIsCutOffOrDamagedIsAnErrorAndNotGrey) {
   EXPECT_EQ(read_jpeg(whole.substr(0, whole.size() / 2), image), "Corrupt JPEG data: premature end of data segment");
 }
 
+TEST(Jpeg, OrientationIsNotHeededAndTold) {
+  using namespace std::string_literals;
+  const std::string whole = JpegFile{}.text();
+  // Exif with one entry, a short: little-endian and big-endian.
+  const std::string little = "II*\0\x08\0\0\0\1\0\x12\1\3\0\1\0\0\0\6\0\0\0\0\0\0\0"s;
+  const std::string big = "MM\0*\0\0\0\x08\0\1\1\x12\0\3\0\0\0\1\0\6\0\0\0\0\0\0"s;
+  const auto remark = [&](const std::string& exif) {
+    const std::string marker = "\xff\xe1\0"s + static_cast<char>(exif.size() + 8) + "Exif\0\0"s + exif;
+    RasterImage image;
+    EXPECT_EQ(read_jpeg(whole.substr(0, 2) + marker + whole.substr(2), image), "");
+    return image.remark;
+  };
+  for (const std::string& exif : {little, big}) {
+    EXPECT_EQ(remark(exif), "says that it is to be turned (orientation 6 in place of 1): it is taken as it is stored");
+    for (std::size_t size = 0; size < 19; ++size) EXPECT_EQ(remark(exif.substr(0, size)), "") << size;
+  }
+  std::string upright = little;
+  upright[18] = 1;
+  EXPECT_EQ(remark(upright), "");
+  EXPECT_EQ(jpeg({}).remark, "");
+}
+
 /// The file with another height and width in its frame header (SOF0 or SOF2).
 std::string with_size(std::string file, int width, int height) {
   std::size_t at = file.find("\xff\xc0");

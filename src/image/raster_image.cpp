@@ -54,6 +54,12 @@ void add_channels(const RasterImage& read, const Array<T>& values, float most, I
 
 }  // namespace
 
+std::string orientation_remark(int orientation) {
+  if (orientation <= 1 || orientation > 8) return {};
+  return "says that it is to be turned (orientation " + std::to_string(orientation) +
+         " in place of 1): it is taken as it is stored";
+}
+
 bool is_raster_image(std::string_view contents) { return format_of(contents) != nullptr; }
 
 std::string read_raster_image(std::string_view contents, Image& image) {

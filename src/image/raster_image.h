@@ -70,6 +70,9 @@ std::string read_raster_texels(std::string_view contents, TexelImage& image);
 /// What BMP and TGA are told whose pixel has an index beyond the palette.
 inline constexpr const char* kNotInPalette = "a pixel has a colour that its palette lacks";
 
+/// What is said of a file that asks to be turned, by the number that TIFF and Exif have for that.
+std::string orientation_remark(int orientation);
+
 /// An integer of [0, most] scaled to the whole range of T, rounded.
 template <class T>
 constexpr T scaled_integer(std::uint64_t value, std::uint64_t most) {

@@ -363,10 +363,7 @@ std::string read_tiff(std::string_view contents, RasterImage& image) {
     image.remark = "has several channels of grey: the first three are taken for red, green, blue";
   }
   const int orientation = field<std::uint16_t>(tiff.get(), TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
-  if (orientation != ORIENTATION_TOPLEFT) {
-    image.remark = "says that it is to be turned (orientation " + std::to_string(orientation) +
-                   " in place of 1): it is taken as it is stored";
-  }
+  if (std::string remark = orientation_remark(orientation); !remark.empty()) image.remark = std::move(remark);
   if (image.is_linear) return read_floats(tiff.get(), file, header, image);
   return header.bits <= 8 ? read_integers(tiff.get(), file, header, image, image.bytes)
                           : read_integers(tiff.get(), file, header, image, image.words);
