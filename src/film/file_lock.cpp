@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "film/image_file.h"
+#include "base/atomic_file.h"
 
 namespace norrsken {
 namespace {

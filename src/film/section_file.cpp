@@ -12,10 +12,10 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/atomic_file.h"
 #include "base/checksum.h"
 #include "base/regular_file.h"
 #include "film/file_lock.h"
-#include "film/image_file.h"
 
 namespace norrsken {
 namespace {
