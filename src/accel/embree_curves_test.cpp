@@ -46,7 +46,7 @@ class CurveScene {
     file.close();
     const double s = place.scale;
     const std::string to_world = fmt::format(
-        R"(<transform name="to_world"><scale value="{}"/><rotate x="1" y="2" z="3" angle="40"/>
+        R"(<transform name="to_world"><scale value="{}"/><rotate x="0.267261242" y="0.534522484" z="0.801783726" angle="40"/>
         <translate x="{}" y="{}" z="{}"/></transform>)",
         s, 2 * s, -3 * s, s);
     const std::string curve = "<shape type=\"" + kind + R"("><string name="filename" value="curve.txt"/>)";

@@ -49,7 +49,7 @@ class GridScene {
     write_vol(folder.file("grid.vol"));
     const double s = place.scale;
     const std::string to_world = fmt::format(
-        R"(<transform name="to_world"><scale x="{}" y="{}" z="{}"/><rotate x="1" y="2" z="3" angle="40"/>
+        R"(<transform name="to_world"><scale x="{}" y="{}" z="{}"/><rotate x="0.267261242" y="0.534522484" z="0.801783726" angle="40"/>
         <translate x="{}" y="{}" z="{}"/></transform>)",
         s, 1.5 * s, 0.75 * s, 2 * s, -3 * s, s);
     const std::string grid = R"(<shape type="sdfgrid"><string name="filename" value="grid.vol"/>)";

@@ -20,7 +20,7 @@ using Names = std::vector<std::string>;
 
 // The channels of a layer with these last names; none if one is missing.
 std::vector<std::size_t> channels_of(const Names& names, std::string_view layer,
-                             std::initializer_list<std::string_view> wanted) {
+                                     std::initializer_list<std::string_view> wanted) {
   std::vector<std::size_t> found;
   for (const std::string_view last : wanted) {
     const auto channel = std::ranges::find_if(names, [&](const std::string& name) {
@@ -65,11 +65,15 @@ ColorChannels colors_of_layers(const Names& names) {
 }  // namespace
 
 ColorChannels color_channels(const Names& names) {
-  if (ColorChannels colors = colors_of_layers(names); !colors.numbers.empty()) return colors;
   const auto has = [&](const char* last) { return !channels_of(names, "", {last}).empty(); };
-  if (const std::vector<std::size_t> grey = channels_of(names, "", {"Y"}); !grey.empty())
+  const std::vector<std::size_t> grey = channels_of(names, "", {"Y"});
+  // An image that belongs to no layer is the image, grey ones too.
+  const bool is_grey_image = !grey.empty() && channels_of(names, "", {"R", "G", "B"}).empty() &&
+                             channels_of(names, "", {"X", "Y", "Z"}).empty();
+  if (is_grey_image)
     return {grey, false,
             has("RY") || has("BY") ? "has colours in channels RY and BY, which are not read: Y is taken for grey" : ""};
+  if (ColorChannels colors = colors_of_layers(names); !colors.numbers.empty()) return colors;
   if (names.size() >= 3) {
     const std::vector<std::size_t> first = {0, 1, 2};
     return {first, false,

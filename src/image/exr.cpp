@@ -102,6 +102,12 @@ class FirstPart {
     return {};
   }
 
+  /// What a user should know of what else the file holds.
+  std::string parts_remark() const {
+    if (file_.parts() <= 1) return {};
+    return "has " + std::to_string(file_.parts()) + " parts, of which the first is taken";
+  }
+
   /// What a user should know where the picture is larger or smaller than the pixels that are there.
   std::string window_remark() const {
     const Imath::Box2i &data = header().dataWindow(), &display = header().displayWindow();
@@ -210,7 +216,9 @@ std::string read_exr_texels(std::string_view contents, TexelImage& image) {
     image.width = static_cast<int>(part.width());
     image.height = static_cast<int>(part.height());
     image.channels = static_cast<int>(count);
-    image.remark = colors.remark.empty() ? part.window_remark() : colors.remark;
+    for (const std::string& remark : {part.parts_remark(), colors.remark, part.window_remark()}) {
+      if (!remark.empty()) image.remark += (image.remark.empty() ? "" : "; it ") + remark;
+    }
     image.values.reserve(part.pixels() * count);
     std::vector<Plane> planes;
     for (std::size_t c = 0; c < count; ++c)

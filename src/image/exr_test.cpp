@@ -208,6 +208,9 @@ TEST(Exr, OfSeveralPartsTheFirstCounts) {
   const Image image = exr(parts_of({"beauty", "albedo"}));
   EXPECT_EQ(image.channels.size(), 1u);
   expect_values(image, "R", 0);
+  TexelImage texels;
+  ASSERT_EQ(read_exr_texels(parts_of({"beauty", "albedo"}), texels), "");
+  EXPECT_TRUE(texels.remark.starts_with("has 2 parts, of which the first is taken")) << texels.remark;
 }
 
 TEST(Exr, DeepImagesAreRefused) {

@@ -133,6 +133,9 @@ TEST(TexelImage, GuessesAtChannelsAreTold) {
   const TexelImage beside = exr_of({{"R", 1}, {"G", 2}, {"B", 3}, {"b.R", 4}, {"b.G", 5}, {"b.B", 6}});
   EXPECT_EQ(beside.remark, "");
   EXPECT_EQ(beside.values, (Array<float>{1, 2, 3}));
+  const TexelImage grey = exr_of({{"Y", 7}, {"albedo.R", 1}, {"albedo.G", 2}, {"albedo.B", 3}});
+  EXPECT_EQ(grey.remark, "");
+  EXPECT_EQ(grey.values, Array<float>{7});
   EXPECT_EQ(exr_of({{"Y", 1}, {"RY", 0}, {"BY", 0}}).remark,
             "has colours in channels RY and BY, which are not read: Y is taken for grey");
   EXPECT_EQ(exr_of({{"R", 1}}).remark, "");

@@ -199,10 +199,12 @@ TEST_F(LookedThrough, NormalMapsTurnTheNormal) {
 
 /// Paths from the light need the correction for shading normals (Veach 1997, equation 5.19) to show the same.
 TEST_F(LookedThrough, NormalMapsTurnTheNormalForPathsFromTheLightToo) {
+  const std::string kUnfolded = R"(<boolean name="flip_invalid_normals" value="false"/>)";
   const double length = std::sqrt(0.09 + 0.04 + 1);
   const closed_form::Vec n{0.3 / length, -0.2 / length, 1 / length};
   const double turned = tilted_plane(n, [](const closed_form::Vec&) { return 1.0; });
-  expect_mean(render(normal_map(false, n), kPoint, {.samples_per_pixel = 8192}, "ptracer"), {turned, turned, turned});
+  expect_mean(render(normal_map(false, n, kUnfolded + diffuse("0.6")), kPoint, {.samples_per_pixel = 8192}, "ptracer"),
+              {turned, turned, turned});
 }
 
 TEST_F(LookedThrough, BumpMapsFollowTheSlopeOfTheirTexture) {

@@ -46,7 +46,7 @@ inline const Row kSampleCount{"sample_count", "integer", "16", "0", "an integer 
 inline const Row kSeed{"seed", "integer", "3", "-1", "an integer of at least 0"};
 inline const Row kJitter{"jitter", "boolean", "false"};
 inline const Row kNear{"near_clip", "float", "0.1", "0", "a number above 0"};
-inline const Row kFar{"far_clip", "float", "100", "0", "a number above 0"};
+inline const Row kFar{"far_clip", "float", "100", "0.005", "a near_clip smaller than the far_clip"};
 inline const Row kFov{"fov", "float", "30", "180", "a number above 0 and below 180"};
 inline const Row kFovAxis{"fov_axis", "string", "smaller", "z", "x, y, diagonal, smaller, larger"};
 inline const Row kFocalLength{"focal_length", "string", "35mm", "wide",
@@ -125,8 +125,8 @@ inline const Plugin kPlugins[] = {
                     rate("specular_reflectance_sampling_rate"),
                     rate("specular_transmittance_sampling_rate"),
                     rate("diffuse_transmittance_sampling_rate")})},
-    {"bsdf", "mask", NORRSKEN_DIFFUSE, {share("opacity")}},
-    {"bsdf", "blendbsdf", NORRSKEN_DIFFUSE NORRSKEN_DIFFUSE, {share("weight")}, {"weight"}},
+    {"bsdf", "mask", NORRSKEN_DIFFUSE, {{"opacity", "float", "0.25"}}},
+    {"bsdf", "blendbsdf", NORRSKEN_DIFFUSE NORRSKEN_DIFFUSE, {{"weight", "float", "0.25"}}, {"weight"}},
     {"bsdf", "bumpmap", NORRSKEN_RELIEF NORRSKEN_DIFFUSE, join(kRelief, {{"scale", "float", "3"}})},
     {"bsdf", "normalmap", NORRSKEN_DIFFUSE, join(kRelief, {{"normalmap", "rgb", "0.5, 0.5, 1"}}), {"normalmap"}},
     {"bsdf", "twosided", NORRSKEN_DIFFUSE, {}},
@@ -139,6 +139,8 @@ inline const Plugin kPlugins[] = {
       kToUv,
       {"filter_type", "string", "nearest", "cubic", "bilinear, nearest"},
       {"wrap_mode", "string", "mirror", "once", "repeat, mirror, clamp"},
+      {"wrap_mode_u", "string", "mirror", "once", "repeat, mirror, clamp"},
+      {"wrap_mode_v", "string", "mirror", "once", "repeat, mirror, clamp"},
       {"raw", "boolean", "true"},
       {"format", "string", "fp16", "fp8", "auto, variant, fp16"},
       {"accel", "boolean", "true"}},
@@ -148,15 +150,15 @@ inline const Plugin kPlugins[] = {
     {"shape",
      "sphere",
      "",
-     {kToWorld, kFlip, {"center", "point", "1, 2, 3"}, {"radius", "float", "2", "0", "a number above 0"}}},
+     {kToAnywhere, kFlip, {"center", "point", "1, 2, 3"}, {"radius", "float", "2", "-1", "a number of at least 0"}}},
     {"shape",
      "cylinder",
      "",
-     {kToWorld,
+     {kToAnywhere,
       kFlip,
       {"p0", "point", "1, 2, 3"},
       {"p1", "point", "1, 2, 3"},
-      {"radius", "float", "2", "0", "a number above 0"}}},
+      {"radius", "float", "2", "-1", "a number of at least 0"}}},
     {"shape", "rectangle", "", {kToAnywhere, kFlip}},
     {"shape", "disk", "", {kToAnywhere, kFlip}},
     {"shape", "cube", "", kMesh},
@@ -190,7 +192,7 @@ inline const Plugin kPlugins[] = {
       kToWorld,
       kWeight,
       {"cutoff_angle", "float", "30", "180", "a number above 0 and below 180"},
-      {"beam_width", "float", "5", "30", "a number from 0 to 20"},
+      {"beam_width", "float", "5"},
       {"texture", "checkerboard", ""}}},
     {"emitter",
      "directional",
