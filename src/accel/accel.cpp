@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 namespace norrsken {
 namespace {
@@ -19,7 +20,7 @@ Array<float> triangle_extents(const SceneTables& scene) {
 
 }  // namespace
 
-Accel::Accel(const SceneTables& scene, AccelKind kind) {
+Accel::Accel(const SceneTables& scene, AccelKind kind, int threads) {
   spheres_ = build_spheres(scene);
   view_.kind = kind;
   view_.sphere_count = static_cast<std::uint32_t>(spheres_.size());
@@ -38,6 +39,9 @@ Accel::Accel(const SceneTables& scene, AccelKind kind) {
     view_.all = planes_.all;
     view_.occluders = planes_.occluders;
     view_.emitters = planes_.emitters;
+  } else if (kind == AccelKind::bvh) {
+    bvh_ = build_bvh(scene, threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
+    view_.bvh = bvh_.view();
   } else if (kind == AccelKind::embree) {
     embree_ = std::make_unique<EmbreeScene>(scene, spheres_);
     embree_->show(view_);

@@ -1,4 +1,4 @@
-// The three intersectors must agree ray by ray. Where they do not, the ray must run along an edge, which double
+// The intersectors must agree ray by ray. Where they do not, the ray must run along an edge, which double
 // precision decides.
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -89,7 +89,7 @@ class Agreement : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Agreement, ClosestHits) {
-  const auto reference = load(AccelKind::moller_trumbore), planes = load(AccelKind::planes),
+  const auto reference = load(AccelKind::moller_trumbore), planes = load(AccelKind::planes), bvh = load(AccelKind::bvh),
              embree = load(AccelKind::embree);
   // Rays from a box half again as large as the scene: from inside and from outside, from behind every surface.
   const SceneInfo info = reference->scene.info();
@@ -102,6 +102,7 @@ TEST_P(Agreement, ClosestHits) {
   for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
     const Closest wanted(*reference, **k, rays, false);
     expect_agreement(*reference, rays, Closest(*planes, **k, rays, false), wanted, std::string((*k)->name) + " planes");
+    expect_agreement(*reference, rays, Closest(*bvh, **k, rays, false), wanted, std::string((*k)->name) + " bvh");
     expect_agreement(*reference, rays, Closest(*embree, **k, rays, false), wanted, std::string((*k)->name) + " embree");
     expect_agreement(*reference, rays, Closest(*embree, **k, rays, true), wanted,
                      std::string((*k)->name) + " embree packets");
@@ -110,7 +111,7 @@ TEST_P(Agreement, ClosestHits) {
 
 /// Between two points of surfaces; planes may leave out what bounds the scene only for such segments.
 TEST_P(Agreement, Occlusion) {
-  const auto reference = load(AccelKind::moller_trumbore), planes = load(AccelKind::planes),
+  const auto reference = load(AccelKind::moller_trumbore), planes = load(AccelKind::planes), bvh = load(AccelKind::bvh),
              embree = load(AccelKind::embree);
   const KernelEntry& kernels = *find_kernels("auto");
   // All from inside the room: its walls' backs scatter nothing, so no segment begins behind them.
@@ -149,7 +150,7 @@ TEST_P(Agreement, Occlusion) {
   std::uint32_t occluded = 0;
   for (std::uint32_t i = 0; i < count; ++i) occluded += wanted[i];
   EXPECT_GT(occluded, 0u);
-  for (const ViewedScene* viewed : {planes.get(), embree.get()}) {
+  for (const ViewedScene* viewed : {planes.get(), bvh.get(), embree.get()}) {
     for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
       (*k)->occluded_rays(viewed->view, rays, t_max.data(), got.data());
       std::uint32_t differing = 0;

@@ -14,8 +14,10 @@ constexpr std::uint32_t kMostListedChoices = 3;
 constexpr struct {
   const char* name;
   AccelKind kind;
-} kAccels[] = {
-    {"planes", AccelKind::planes}, {"moller_trumbore", AccelKind::moller_trumbore}, {"embree", AccelKind::embree}};
+} kAccels[] = {{"planes", AccelKind::planes},
+               {"moller_trumbore", AccelKind::moller_trumbore},
+               {"bvh", AccelKind::bvh},
+               {"embree", AccelKind::embree}};
 
 /// Lanes that gather nothing read the first element, which scenes without a surface have none of.
 template <class T>
@@ -26,11 +28,14 @@ const T* data_or_one(const Array<T>& values) {
 
 }  // namespace
 
-AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes,
+AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes, bool counts_triangles,
                        Diagnostics& diagnostics) {
   const std::size_t primitives = tables.surfaces.size();
   const bool embree_only = !tables.analytics.empty() || tables.group_count > 0;
-  const AccelKind automatic = primitives <= planes_up_to(lanes) && !embree_only ? AccelKind::planes : AccelKind::embree;
+  const AccelKind automatic = embree_only                                              ? AccelKind::embree
+                              : primitives <= planes_up_to(lanes) && !counts_triangles ? AccelKind::planes
+                              : tables.sphere_count() <= kBvhSpheresAtMost             ? AccelKind::bvh
+                                                                                       : AccelKind::embree;
   if (name == "auto") return automatic;
   for (const auto& accel : kAccels) {
     if (name != accel.name) continue;
@@ -45,11 +50,11 @@ AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::
       diagnostics.error(
           {},
           "accelerator 'planes' is for small scenes, and this one has " + std::to_string(primitives) + " primitives",
-          "at most " + std::to_string(kPlanesAtMost) + " primitives, or embree");
+          "at most " + std::to_string(kPlanesAtMost) + " primitives, or bvh or embree");
     }
     return accel.kind;
   }
-  diagnostics.error({}, "unknown accelerator '" + name + "'", "auto, embree, moller_trumbore, planes");
+  diagnostics.error({}, "unknown accelerator '" + name + "'", "auto, bvh, embree, moller_trumbore, planes");
   return automatic;
 }
 

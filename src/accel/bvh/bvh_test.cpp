@@ -1,0 +1,409 @@
+// The hierarchy of triangles: that it is well built whatever it is made of, and that rays find in it what is there.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include "accel/bvh/mesh_testing.h"
+
+namespace norrsken {
+namespace {
+
+/// What a walk over all of it finds.
+struct Census {
+  std::vector<std::uint32_t> primitives;
+  std::uint32_t levels = 0;
+  bool bounds_hold = true;
+
+  explicit Census(const Bvh& bvh, const TestMesh& mesh) : bvh_(bvh), mesh_(mesh) {
+    const float most = std::numeric_limits<float>::infinity();
+    const float everything[3][2] = {{-most, most}, {-most, most}, {-most, most}};
+    if (bvh.root != kBvhNothing) walk(bvh.root, 1, everything);
+    std::ranges::sort(primitives);
+  }
+
+ private:
+  void walk(std::uint32_t child, std::uint32_t level, const float bounds[3][2]) {
+    const CacheLine* line = bvh_.lines.data() + (child & ~kBvhLeaf);
+    if ((child & kBvhLeaf) != 0) {
+      const auto& block = *reinterpret_cast<const TriangleBlock*>(line);
+      for (const std::uint32_t primitive : block.primitive) {
+        if (primitive == kBvhNothing) continue;
+        primitives.push_back(primitive);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const glm::dvec3 p = mesh_.corner(primitive, k);
+          for (int a = 0; a < 3; ++a) {
+            bounds_hold =
+                bounds_hold && p[a] >= static_cast<double>(bounds[a][0]) && p[a] <= static_cast<double>(bounds[a][1]);
+          }
+        }
+      }
+      return;
+    }
+    levels = std::max(levels, level);
+    const auto& node = *reinterpret_cast<const BvhNode*>(line);
+    for (std::size_t i = 0; i < kBvhWidth; ++i) {
+      if (node.child[i] == kBvhNothing) continue;
+      float of_child[3][2];
+      for (std::size_t a = 0; a < 3; ++a) {
+        for (std::size_t side = 0; side < 2; ++side) of_child[a][side] = node.bounds[a][side][i];
+      }
+      walk(node.child[i], level + 1, of_child);
+    }
+  }
+
+  const Bvh& bvh_;
+  const TestMesh& mesh_;
+};
+
+void expect_well_built(const TestMesh& mesh, std::uint32_t triangles_that_count) {
+  const Bvh bvh = build_bvh(mesh.tables, 2);
+  const Census census(bvh, mesh);
+  EXPECT_EQ(census.primitives.size(), triangles_that_count);
+  EXPECT_EQ(std::ranges::adjacent_find(census.primitives), census.primitives.end()) << "twice";
+  EXPECT_TRUE(census.bounds_hold);
+  EXPECT_LE(census.levels, kBvhMostLevels);
+}
+
+glm::dvec3 near(const glm::dvec3& p, double size, TestRandom& random) { return p + random.in_cube() * size; }
+
+TestMesh soup(std::uint32_t triangles, const glm::dvec3& center, double scale, double size, unsigned seed) {
+  TestRandom random(seed);
+  TestMesh mesh;
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const glm::dvec3 p = center + random.in_cube() * scale;
+    mesh.add_triangle(near(p, size * scale, random), near(p, size * scale, random), near(p, size * scale, random));
+  }
+  mesh.finish();
+  return mesh;
+}
+
+TEST(BvhBuild, HoldsEveryTriangleOnce) { expect_well_built(soup(5000, {}, 1, 0.1, 1), 5000); }
+
+TEST(BvhBuild, DoesNotDependOnTheNumberOfThreads) {
+  const TestMesh mesh = soup(100'000, {}, 1, 0.02, 2);
+  const Bvh one = build_bvh(mesh.tables, 1);
+  for (const int threads : {2, 3, 7}) {
+    const Bvh many = build_bvh(mesh.tables, threads);
+    ASSERT_EQ(many.lines.size(), one.lines.size());
+    EXPECT_EQ(std::memcmp(many.lines.data(), one.lines.data(), one.lines.size() * sizeof(CacheLine)), 0) << threads;
+  }
+}
+
+TEST(BvhBuild, OfNothing) {
+  TestMesh mesh;
+  mesh.finish();
+  expect_well_built(mesh, 0);
+  const TestView bvh(mesh, AccelKind::bvh);
+  const RayBlock block({{{0, 0, 0}, {0, 0, 1}}});
+  for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+    EXPECT_FALSE(block.closest(bvh.view, **k)[0].is_hit());
+    EXPECT_FALSE(block.occluded(bvh.view, **k)[0]);
+  }
+}
+
+/// The heuristic has nothing to go by.
+TEST(BvhBuild, OfAMillionEqualTriangles) {
+  TestMesh mesh;
+  for (const glm::dvec3& p : {glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)}) mesh.add_vertex(p);
+  for (std::uint32_t i = 0; i < 1'000'000; ++i) mesh.add_triangle(0, 1, 2);
+  mesh.finish();
+  expect_well_built(mesh, 1'000'000);
+  const TestView bvh(mesh, AccelKind::bvh);
+  const RayBlock block({{{0.2f, 0.2f, 1}, {0, 0, -1}}});
+  for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+    EXPECT_EQ(block.closest(bvh.view, **k)[0], (TestHit{1, 0})) << "the first of all at one distance";
+  }
+}
+
+/// Each is half as large and half as far as the one before: the heuristic splits off one at a time.
+TEST(BvhBuild, OfASpiral) {
+  TestMesh mesh;
+  for (int turn = 0; turn < 100; ++turn) {
+    for (int i = 0; i < 100; ++i) {
+      const double s = std::pow(0.5, i), x = s * (1 + 1e-3 * turn);
+      mesh.add_triangle(glm::dvec3{x, 0, 0}, glm::dvec3{x, s, 0}, glm::dvec3{x, 0, s});
+    }
+  }
+  mesh.finish();
+  expect_well_built(mesh, 10'000);
+}
+
+TEST(BvhBuild, LeavesOutWhatNoRayCanMeet) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+  TestMesh mesh = soup(100, {}, 1, 0.1, 3);
+  for (const double bad : {kNan, kInf, -kInf, 1e19, 1e30, 3e38}) {
+    mesh.add_triangle(glm::dvec3{0, 0, bad}, glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0});
+    mesh.add_triangle(glm::dvec3{0, 0, 0}, glm::dvec3{1, 0, 0}, glm::dvec3{0, bad, 0});
+  }
+  mesh.finish();
+  expect_well_built(mesh, 100);
+}
+
+/// Their areas overflow.
+TEST(BvhBuild, OfHugeAndOfTinyTriangles) {
+  for (const double scale : {1e18, 1e-30, 1e-42}) {
+    const TestMesh mesh = soup(3000, {}, scale, 0.3, 4);
+    expect_well_built(mesh, 3000);
+  }
+}
+
+TEST(BvhBuild, IsCounted) {
+  const TestMesh mesh = soup(50'000, {}, 1, 0.02, 5);
+  const auto budget = std::make_shared<MemoryBudget>();
+  {
+    const MemoryScope scope(budget);
+    const Bvh bvh = build_bvh(mesh.tables, 2);
+    EXPECT_GE(budget->used(), bvh.lines.size() * sizeof(CacheLine));
+  }
+  EXPECT_EQ(budget->used(), 0u);
+  for (std::uint64_t limit = 1'000'000; limit < budget->peak(); limit += 500'000) {
+    const auto small = std::make_shared<MemoryBudget>(limit);
+    const MemoryScope scope(small);
+    EXPECT_THROW(build_bvh(mesh.tables, 2), MemoryExceeded);
+    EXPECT_EQ(small->used(), 0u);
+  }
+}
+
+/// Exact enough to tell what is certain from what is open, by double precision. Distances from edges are in units of
+/// those between the ray's origin and the corners.
+struct ExactCrossing {
+  double t;
+  double inside;  ///< how far inside of the nearest edge, in units of the triangle's distance
+  bool is_open;   ///< in the plane of the triangle, or nearly
+};
+
+ExactCrossing cross_exactly(const TestMesh& mesh, std::uint32_t triangle, const TestRay& ray) {
+  const glm::dvec3 o(ray.origin), d(ray.direction);
+  glm::dvec3 v[3];
+  double reach = 0, inside[2] = {1e300, 1e300};
+  for (std::size_t k = 0; k < 3; ++k) v[k] = mesh.corner(triangle, k) - o, reach = std::max(reach, glm::length(v[k]));
+  const glm::dvec3 n = glm::cross(v[1] - v[0], v[2] - v[0]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec3 e = v[(k + 1) % 3] - v[k], across = glm::cross(d, e);
+    const double length = glm::length(across), distance = length > 0 ? glm::dot(v[k], across) / length : 0;
+    inside[0] = std::min(inside[0], distance / reach);
+    inside[1] = std::min(inside[1], -distance / reach);
+  }
+  const double slope = glm::dot(n, d), area = glm::length(n);
+  return {glm::dot(n, v[0]) / slope, std::max(inside[0], inside[1]), !(std::abs(slope) > 1e-3 * area) || !(area > 0)};
+}
+
+constexpr double kCertain = 3e-6;  ///< of distances and of places
+
+/// What was found is there, and nothing that is certainly there is nearer.
+void expect_right(const TestMesh& mesh, const TestRay& ray, const TestHit& hit, bool occluded,
+                  const std::string& what) {
+  double certain = ray.t_max, possible = std::numeric_limits<double>::infinity();
+  bool found = !hit.is_hit(), any_open = false;
+  for (std::uint32_t i = 0; i < mesh.triangle_count(); ++i) {
+    const ExactCrossing c = cross_exactly(mesh, i, ray);
+    if (hit.is_hit() && i == hit.primitive()) {
+      found = c.is_open || (c.inside > -kCertain && std::abs(c.t - static_cast<double>(hit.t)) <= 1e-3 * std::abs(c.t));
+    }
+    if (c.is_open) {
+      any_open = any_open || c.inside > -kCertain;
+    } else if (c.t > 0 && c.inside > kCertain) {
+      certain = std::min(certain, c.t);
+    } else if (c.t > 0 && c.inside > -kCertain) {
+      possible = std::min(possible, c.t);
+    }
+  }
+  EXPECT_TRUE(found) << what << ": it does not meet triangle " << hit.primitive() << " at " << hit.t;
+  const double nearest = hit.is_hit() ? static_cast<double>(hit.t) : std::numeric_limits<double>::infinity();
+  if (certain < static_cast<double>(ray.t_max)) {
+    EXPECT_LE(nearest, certain * (1 + 1e-3)) << what << ": there is something before";
+    if (certain < static_cast<double>(ray.t_max) * (1 - 1e-3)) EXPECT_TRUE(occluded) << what;
+  } else if (!any_open && possible > static_cast<double>(ray.t_max) * (1 + 1e-3)) {
+    EXPECT_FALSE(occluded) << what;
+  }
+}
+
+struct SoupCase {
+  const char* name;
+  glm::dvec3 center;
+  double scale, size;
+};
+
+class BvhSoup : public testing::TestWithParam<SoupCase> {
+ protected:
+  const SoupCase& c() const { return GetParam(); }
+  std::vector<TestRay> random_rays(const TestMesh& mesh, std::uint32_t count) const {
+    TestRandom random(7);
+    std::vector<TestRay> rays;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const glm::dvec3 from = c().center + random.in_cube() * (1.5 * c().scale);
+      const std::uint32_t t = random.below(mesh.triangle_count());
+      // A third each at a triangle, at an edge, and along axes.
+      TestRay ray = ray_between(from, (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0);
+      if (i % 3 == 1) ray = ray_between(from, (mesh.corner(t, 0) + mesh.corner(t, 1)) / 2.0);
+      if (i % 3 == 2) {
+        ray.origin[static_cast<int>(i / 3 % 2)] = static_cast<float>(mesh.corner(t, 0)[static_cast<int>(i / 3 % 2)]);
+        ray.direction = glm::vec3(0);
+        ray.direction[static_cast<int>(i / 3 % 3)] = i % 2 == 0 ? 1.0f : -1.0f;
+      }
+      ray.t_max = static_cast<float>(c().scale * 3 * random.uniform());
+      rays.push_back(ray);
+    }
+    return rays;
+  }
+};
+
+TEST_P(BvhSoup, ShowsWhatIsThere) {
+  const TestMesh mesh = soup(1000, c().center, c().scale, c().size, 6);
+  const TestView bvh(mesh, AccelKind::bvh);
+  const std::vector<TestRay> rays = random_rays(mesh, 1500);
+  const RayBlock block(rays);
+  std::vector<TestHit> first;
+  std::vector<bool> first_occluded;
+  for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+    const std::vector<TestHit> hits = block.closest(bvh.view, **k);
+    const std::vector<bool> occluded = block.occluded(bvh.view, **k);
+    if (first.empty()) {
+      first = hits, first_occluded = occluded;
+      for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        expect_right(mesh, rays[i], hits[i], occluded[i], "ray " + std::to_string(i));
+      }
+      EXPECT_GT(std::ranges::count_if(hits, [](const TestHit& hit) { return hit.is_hit(); }), 900);
+    }
+    EXPECT_TRUE(hits == first && occluded == first_occluded) << (*k)->name << " has other bits";
+  }
+}
+
+/// Where Embree's robust tests and ours differ the ray runs along an edge, or meets two triangles at one distance.
+TEST_P(BvhSoup, AgreesWithEmbree) {
+  if (c().scale < 1e-10 || c().scale > 1e10) GTEST_SKIP() << "Embree's products of three coordinates end before";
+  const TestMesh mesh = soup(20'000, c().center, c().scale, c().size / 3, 8);
+  const TestView bvh(mesh, AccelKind::bvh), embree(mesh, AccelKind::embree);
+  const std::vector<TestRay> rays = random_rays(mesh, 20'000);
+  const RayBlock block(rays);
+  const KernelEntry& kernels = *find_kernels("auto");
+  const std::vector<TestHit> ours = block.closest(bvh.view, kernels), theirs = block.closest(embree.view, kernels);
+  const std::vector<bool> occluded = block.occluded(bvh.view, kernels),
+                          theirs_occluded = block.occluded(embree.view, kernels);
+  std::uint32_t differing = 0;
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    if (ours[i].primitive_side == theirs[i].primitive_side && occluded[i] == theirs_occluded[i]) continue;
+    const auto on_an_edge = [&](const TestHit& hit) {
+      if (!hit.is_hit()) return false;
+      const ExactCrossing c = cross_exactly(mesh, hit.primitive(), rays[i]);
+      return c.is_open || c.inside < kCertain || std::abs(c.t - static_cast<double>(rays[i].t_max)) < 1e-3 * c.t;
+    };
+    const bool at_one_distance = std::abs(ours[i].t - theirs[i].t) <= 1e-4f * ours[i].t;
+    EXPECT_TRUE(on_an_edge(ours[i]) || on_an_edge(theirs[i]) || at_one_distance) << "ray " << i;
+    ++differing;
+  }
+  EXPECT_LT(differing, rays.size() / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Soups, BvhSoup,
+                         testing::Values(SoupCase{"Plain", {}, 1, 0.1}, SoupCase{"Large", {}, 1, 2},
+                                         SoupCase{"Small", {}, 1, 0.01},
+                                         SoupCase{"FarFromTheOrigin", {1000, -2000, 500}, 1, 0.1},
+                                         SoupCase{"Micrometres", {}, 1e-6, 0.1}, SoupCase{"Gigametres", {}, 1e9, 0.1},
+                                         SoupCase{"Tiny", {}, 1e-14, 0.1}, SoupCase{"Huge", {}, 1e15, 0.1}),
+                         [](const auto& parameter) { return parameter.param.name; });
+
+TEST(BvhRays, OfOneTriangle) {
+  TestMesh mesh;
+  mesh.add_triangle(glm::dvec3{0, 0, 0}, glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0});
+  mesh.finish();
+  expect_well_built(mesh, 1);
+  const TestView bvh(mesh, AccelKind::bvh);
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  const float before = std::nextafter(2.0f, 0.0f), after = std::nextafter(2.0f, 3.0f);
+  struct Case {
+    TestRay ray;
+    TestHit hit;
+    bool occluded;
+  };
+  constexpr std::uint32_t kBack = 0x80000000u;
+  const Case cases[] = {
+      {{{0.2f, 0.2f, 2}, {0, 0, -1}, inf}, {2, 0}, true},
+      {{{0.2f, 0.2f, -2}, {0, 0, 1}, inf}, {2, kBack}, true},
+      {{{0.2f, 0.2f, 2}, {0, 0, -1}, 2}, {2, 0}, false},  // ends on it
+      {{{0.2f, 0.2f, 2}, {0, 0, -1}, before}, {2, 0}, false},
+      {{{0.2f, 0.2f, 2}, {0, 0, -1}, after}, {2, 0}, true},
+      {{{0.2f, 0.2f, 2}, {0, 0, -1}, 0}, {2, 0}, false},
+      {{{0.2f, 0.2f, 2}, {0, 0, -1}, -1}, {2, 0}, false},
+      {{{0.2f, 0.2f, 2}, {0, 0, -1}, nan}, {2, 0}, false},
+      {{{0.2f, 0.2f, 0}, {0, 0, -1}, inf}, {inf, kNone}, false},  // begins on it
+      {{{0.2f, 0.2f, 2}, {0, 0, 1}, inf}, {inf, kNone}, false},
+      {{{0.8f, 0.8f, 2}, {0, 0, -1}, inf}, {inf, kNone}, false},
+      {{{0.5f, 0.5f, 2}, {0, 0, -1}, inf}, {2, 0}, true},  // an edge
+      {{{0, 0, 2}, {-0.0f, 0, -1}, inf}, {2, 0}, true},    // corners
+      {{{0, 0, 2}, {0, -0.0f, -1}, inf}, {2, 0}, true},
+      {{{1, 0, 2}, {0, 0, -1}, inf}, {2, 0}, true},
+      {{{0, 1, 2}, {-0.0f, -0.0f, -1}, inf}, {2, 0}, true},
+      {{{-1, 0.2f, 0}, {1, 0, 0}, inf}, {inf, kNone}, false},  // in its plane
+      {{{0.2f, 0.2f, 2}, {0, 0, 0}, inf}, {inf, kNone}, false},
+      {{{nan, 0.2f, 2}, {0, 0, -1}, inf}, {inf, kNone}, false},
+      {{{0.2f, 0.2f, 2}, {0, nan, -1}, inf}, {inf, kNone}, false},
+      {{{0.2f, inf, 2}, {0, 0, -1}, inf}, {inf, kNone}, false},
+      {{{0.2f, 1e30f, 2}, {0, 0, -1}, inf}, {inf, kNone}, false},
+  };
+  std::vector<TestRay> rays;
+  for (const Case& c : cases) rays.push_back(c.ray);
+  const RayBlock block(rays);
+  for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+    const std::vector<TestHit> hits = block.closest(bvh.view, **k);
+    const std::vector<bool> occluded = block.occluded(bvh.view, **k);
+    for (std::size_t i = 0; i < std::size(cases); ++i) {
+      EXPECT_EQ(hits[i], cases[i].hit) << (*k)->name << ", case " << i << ": t " << hits[i].t << ", "
+                                       << hits[i].primitive_side;
+      EXPECT_EQ(occluded[i], cases[i].occluded) << (*k)->name << ", case " << i;
+    }
+  }
+}
+
+/// Points, lines and slivers hide nothing, and what is behind them is found.
+TEST(BvhRays, OfDegenerateTriangles) {
+  TestRandom random(9);
+  TestMesh mesh;
+  for (int i = 0; i < 500; ++i) {
+    const glm::dvec3 p = random.in_cube(), q = random.in_cube();
+    mesh.add_triangle(p, p, p);
+    mesh.add_triangle(p, q, p);
+    mesh.add_triangle(p, q, q);
+  }
+  const std::uint32_t wall = mesh.triangle_count();
+  mesh.add_triangle(glm::dvec3{-9, -9, -2}, glm::dvec3{9, -9, -2}, glm::dvec3{0, 9, -2});
+  mesh.finish();
+  expect_well_built(mesh, wall + 1);
+  const TestView bvh(mesh, AccelKind::bvh);
+  std::vector<TestRay> rays;
+  for (int i = 0; i < 1000; ++i) {
+    // Half of them aimed at a point of a line.
+    const std::uint32_t t = random.below(wall);
+    const glm::dvec3 at = (mesh.corner(t, 0) + mesh.corner(t, 1)) / 2.0;
+    const glm::dvec3 from =
+        i % 2 == 0 ? glm::dvec3(random.in_cube().x, random.in_cube().y, 3) : glm::dvec3(at.x, at.y, 3);
+    TestRay ray{glm::vec3(from), glm::vec3(0, 0, -1)};
+    rays.push_back(ray);
+  }
+  const RayBlock block(rays);
+  for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+    for (const TestHit& hit : block.closest(bvh.view, **k)) EXPECT_EQ(hit.primitive_side, wall) << (*k)->name;
+  }
+}
+
+/// More rays than are asked for at a time, and any number of them at the end.
+TEST(BvhRays, OfAnyNumber) {
+  const TestMesh mesh = bumpy_sphere(20, 1);
+  const TestView bvh(mesh, AccelKind::bvh);
+  TestRandom random(10);
+  std::vector<TestRay> rays;
+  for (int i = 0; i < 2100; ++i) rays.push_back(ray_between(random.in_cube() * 0.3, random.direction()));
+  const KernelEntry& kernels = *find_kernels("auto");
+  const std::vector<TestHit> all = RayBlock(rays).closest(bvh.view, kernels);
+  for (const std::size_t n : {1u, 2u, 15u, 16u, 17u, 1000u, 1023u, 1024u, 1025u, 1040u, 2048u, 2099u}) {
+    const RayBlock block({rays.begin(), rays.begin() + static_cast<std::ptrdiff_t>(n)});
+    const std::vector<TestHit> hits = block.closest(bvh.view, kernels);
+    EXPECT_TRUE(std::equal(hits.begin(), hits.end(), all.begin())) << n;
+    EXPECT_EQ(std::ranges::count(block.occluded(bvh.view, kernels), false), 0) << n;
+  }
+}
+
+}  // namespace
+}  // namespace norrsken
