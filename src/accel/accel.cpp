@@ -4,6 +4,8 @@
 #include <cmath>
 #include <thread>
 
+#include "accel/embree_elements.h"
+
 namespace norrsken {
 namespace {
 
@@ -19,6 +21,11 @@ Array<float> triangle_extents(const SceneTables& scene) {
 }
 
 }  // namespace
+
+bool bvh_knows(const SceneTables& scene) {
+  return scene.group_count == 0 &&
+         std::ranges::none_of(scene.analytics, [](const AnalyticRecord& a) { return has_elements(a.kind); });
+}
 
 Accel::Accel(const SceneTables& scene, AccelKind kind, int threads) {
   spheres_ = build_spheres(scene);
@@ -42,6 +49,9 @@ Accel::Accel(const SceneTables& scene, AccelKind kind, int threads) {
   } else if (kind == AccelKind::bvh) {
     bvh_ = build_bvh(scene, threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
     view_.bvh = bvh_.view();
+    view_.analytics = scene.analytics.data();
+    view_.analytic_count = static_cast<std::uint32_t>(scene.analytics.size());
+    view_.first_analytic = scene.first_analytic;
   } else if (kind == AccelKind::embree) {
     embree_ = std::make_unique<EmbreeScene>(scene, spheres_);
     embree_->show(view_);

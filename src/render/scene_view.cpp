@@ -31,19 +31,30 @@ const T* data_or_one(const Array<T>& values) {
 AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes, bool counts_triangles,
                        Diagnostics& diagnostics) {
   const std::size_t primitives = tables.surfaces.size();
-  const bool embree_only = !tables.analytics.empty() || tables.group_count > 0;
-  const AccelKind automatic = embree_only                                              ? AccelKind::embree
-                              : primitives <= planes_up_to(lanes) && !counts_triangles ? AccelKind::planes
-                              : tables.sphere_count() <= kBvhSpheresAtMost             ? AccelKind::bvh
-                                                                                       : AccelKind::embree;
+  const bool polygons_and_spheres = tables.analytics.empty() && tables.group_count == 0;
+  const std::size_t beside_triangles = primitives - tables.triangle_count();
+  AccelKind automatic = AccelKind::embree;
+  if (polygons_and_spheres && primitives <= planes_up_to(lanes) && !counts_triangles) {
+    automatic = AccelKind::planes;
+  } else if (bvh_knows(tables) && beside_triangles <= kBesideBvhAtMost) {
+    automatic = AccelKind::bvh;
+  }
   if (name == "auto") return automatic;
   for (const auto& accel : kAccels) {
     if (name != accel.name) continue;
-    if (accel.kind != AccelKind::embree && embree_only) {
+    if (accel.kind == AccelKind::bvh && !bvh_knows(tables)) {
+      diagnostics.error(
+          {},
+          std::string("accelerator 'bvh' knows triangles, spheres, disks and cylinders only, and this scene has ") +
+              (tables.group_count == 0 ? "curves or grids" : "groups"),
+          "auto or embree");
+      return automatic;
+    }
+    if ((accel.kind == AccelKind::planes || accel.kind == AccelKind::moller_trumbore) && !polygons_and_spheres) {
       diagnostics.error({},
                         "accelerator '" + name + "' knows triangles and spheres only, and this scene has " +
                             (tables.analytics.empty() ? "groups" : "other shapes"),
-                        "auto or embree");
+                        bvh_knows(tables) ? "auto, bvh or embree" : "auto or embree");
       return automatic;
     }
     if (accel.kind == AccelKind::planes && primitives > kPlanesAtMost) {

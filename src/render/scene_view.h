@@ -17,7 +17,7 @@ const KernelEntry* choose_kernels(const std::string& isa, Diagnostics& diagnosti
 
 /// The accelerator by name ("auto", "planes", "moller_trumbore", "bvh", "embree"); "auto" goes by the number of primitives
 /// and lanes, and takes none that knows only polygons if `counts_triangles`. Complains about unknown names, planes for a
-/// large scene, and anything but Embree for shapes with a formula or groups of shapes, and falls back to auto's choice.
+/// large scene, and about what does not know the scene's shapes, and falls back to auto's choice.
 AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes, bool counts_triangles,
                        Diagnostics& diagnostics);
 const char* accel_name(AccelKind kind);

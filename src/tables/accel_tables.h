@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tables/bvh_tables.h"
+#include "tables/scene_tables.h"
 
 namespace norrsken {
 
@@ -67,7 +68,10 @@ struct AccelView {
   PlaneSet all, occluders, emitters;
   std::uint32_t emitter_sphere_count = 0;  ///< they come first among the spheres
   BvhView bvh;                             ///< of the triangles
-  void* embree_scene = nullptr;            ///< RTCScene
+  /// What stands beside it besides the spheres: the primitives from first_analytic on.
+  const AnalyticRecord* analytics = nullptr;
+  std::uint32_t analytic_count = 0, first_analytic = kNone;
+  void* embree_scene = nullptr;  ///< RTCScene
   /// Geometries by their ID, first the world's; those of instance i begin at instance_geometries[i].
   const EmbreeGeometry* embree_geometries = nullptr;
   const std::uint32_t* instance_geometries = nullptr;

@@ -43,8 +43,6 @@ inline constexpr std::uint32_t kBvhMostLevels = 80;
 struct BvhView {
   const CacheLine* lines = nullptr;
   std::uint32_t root = kBvhNothing;
-  /// Whether it is so large that it is mostly found in memory, not in the processor's caches.
-  bool is_large = false;
 };
 
 }  // namespace norrsken

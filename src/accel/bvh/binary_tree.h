@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "base/memory.h"
 #include "tables/scene_tables.h"

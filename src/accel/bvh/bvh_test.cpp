@@ -166,10 +166,9 @@ TEST(BvhBuild, IsCounted) {
   }
 }
 
-/// Exact enough to tell what is certain from what is open, by double precision. Distances from edges are in units of
-/// those between the ray's origin and the corners.
+/// A crossing by double precision, with how far a test in single precision may be off.
 struct ExactCrossing {
-  double t;
+  double t, t_error;
   double inside;  ///< how far inside of the nearest edge, in units of the triangle's distance
   bool is_open;   ///< in the plane of the triangle, or nearly
 };
@@ -186,36 +185,36 @@ ExactCrossing cross_exactly(const TestMesh& mesh, std::uint32_t triangle, const 
     inside[0] = std::min(inside[0], distance / reach);
     inside[1] = std::min(inside[1], -distance / reach);
   }
-  const double slope = glm::dot(n, d), area = glm::length(n);
-  return {glm::dot(n, v[0]) / slope, std::max(inside[0], inside[1]), !(std::abs(slope) > 1e-3 * area) || !(area > 0)};
+  const double slope = std::abs(glm::dot(n, d)), area = glm::length(n);
+  return {glm::dot(n, v[0]) / glm::dot(n, d), 2e-6 * reach * area / slope, std::max(inside[0], inside[1]),
+          !(slope > 1e-3 * area) || !(area > 0)};
 }
 
-constexpr double kCertain = 3e-6;  ///< of distances and of places
+constexpr double kCertain = 3e-6;
 
 /// What was found is there, and nothing that is certainly there is nearer.
 void expect_right(const TestMesh& mesh, const TestRay& ray, const TestHit& hit, bool occluded,
                   const std::string& what) {
-  double certain = ray.t_max, possible = std::numeric_limits<double>::infinity();
+  double certain = std::numeric_limits<double>::infinity(), possible = certain;
   bool found = !hit.is_hit(), any_open = false;
   for (std::uint32_t i = 0; i < mesh.triangle_count(); ++i) {
     const ExactCrossing c = cross_exactly(mesh, i, ray);
+    const bool may_be_hit = c.is_open || (c.inside > -kCertain && c.t > -c.t_error);
     if (hit.is_hit() && i == hit.primitive()) {
-      found = c.is_open || (c.inside > -kCertain && std::abs(c.t - static_cast<double>(hit.t)) <= 1e-3 * std::abs(c.t));
+      found = may_be_hit && (c.is_open || std::abs(c.t - static_cast<double>(hit.t)) <= c.t_error);
     }
-    if (c.is_open) {
-      any_open = any_open || c.inside > -kCertain;
-    } else if (c.t > 0 && c.inside > kCertain) {
-      certain = std::min(certain, c.t);
-    } else if (c.t > 0 && c.inside > -kCertain) {
-      possible = std::min(possible, c.t);
-    }
+    any_open = any_open || (c.is_open && may_be_hit);
+    if (c.is_open || !may_be_hit) continue;
+    possible = std::min(possible, c.t - c.t_error);
+    if (c.t > c.t_error && c.inside > kCertain) certain = std::min(certain, c.t + c.t_error);
   }
   EXPECT_TRUE(found) << what << ": it does not meet triangle " << hit.primitive() << " at " << hit.t;
   const double nearest = hit.is_hit() ? static_cast<double>(hit.t) : std::numeric_limits<double>::infinity();
-  if (certain < static_cast<double>(ray.t_max)) {
-    EXPECT_LE(nearest, certain * (1 + 1e-3)) << what << ": there is something before";
-    if (certain < static_cast<double>(ray.t_max) * (1 - 1e-3)) EXPECT_TRUE(occluded) << what;
-  } else if (!any_open && possible > static_cast<double>(ray.t_max) * (1 + 1e-3)) {
+  EXPECT_LE(nearest, certain) << what << ": there is something before";
+  const double t_max = static_cast<double>(ray.t_max);
+  if (certain < t_max) {
+    EXPECT_TRUE(occluded) << what;
+  } else if (!any_open && possible > t_max) {
     EXPECT_FALSE(occluded) << what;
   }
 }
@@ -265,7 +264,7 @@ TEST_P(BvhSoup, ShowsWhatIsThere) {
       for (std::uint32_t i = 0; i < rays.size(); ++i) {
         expect_right(mesh, rays[i], hits[i], occluded[i], "ray " + std::to_string(i));
       }
-      EXPECT_GT(std::ranges::count_if(hits, [](const TestHit& hit) { return hit.is_hit(); }), 900);
+      EXPECT_GT(std::ranges::count_if(hits, [](const TestHit& hit) { return hit.is_hit(); }), 500);
     }
     EXPECT_TRUE(hits == first && occluded == first_occluded) << (*k)->name << " has other bits";
   }
@@ -288,13 +287,18 @@ TEST_P(BvhSoup, AgreesWithEmbree) {
     const auto on_an_edge = [&](const TestHit& hit) {
       if (!hit.is_hit()) return false;
       const ExactCrossing c = cross_exactly(mesh, hit.primitive(), rays[i]);
-      return c.is_open || c.inside < kCertain || std::abs(c.t - static_cast<double>(rays[i].t_max)) < 1e-3 * c.t;
+      return c.is_open || c.inside < kCertain || std::abs(c.t - static_cast<double>(rays[i].t_max)) < c.t_error;
     };
-    const bool at_one_distance = std::abs(ours[i].t - theirs[i].t) <= 1e-4f * ours[i].t;
-    EXPECT_TRUE(on_an_edge(ours[i]) || on_an_edge(theirs[i]) || at_one_distance) << "ray " << i;
+    const auto at_one_distance = [&] {
+      if (!ours[i].is_hit() || !theirs[i].is_hit()) return false;
+      const ExactCrossing a = cross_exactly(mesh, ours[i].primitive(), rays[i]),
+                          b = cross_exactly(mesh, theirs[i].primitive(), rays[i]);
+      return std::abs(a.t - b.t) <= a.t_error + b.t_error;
+    };
+    EXPECT_TRUE(on_an_edge(ours[i]) || on_an_edge(theirs[i]) || at_one_distance()) << "ray " << i;
     ++differing;
   }
-  EXPECT_LT(differing, rays.size() / 2);
+  EXPECT_LT(differing, rays.size() / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Soups, BvhSoup,

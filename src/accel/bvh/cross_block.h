@@ -3,9 +3,9 @@
 // which side of an edge it passes is then the sign of a difference of two products, the same two for either triangle at
 // the edge, and rounded alike as nothing fuses one of them with the difference. A ray through an edge or a corner meets
 // all that are there.
-// Departures: the corners' distances are not scaled before they are weighted, and the weights are divided by their sum
-// first, so that coordinates may be as large or as small as their squares can be; no second try in double precision,
-// since zeros count as inside.
+// Departures: what is weighted are differences of the corners' distances, by weights that are divided by their sum first:
+// coordinates may be as large or as small as their squares can be, and a triangle that the ray meets squarely is met where
+// it is. No second try in double precision, since zeros count as inside.
 #pragma once
 
 #include "accel/bvh/ray_state.h"
@@ -38,7 +38,7 @@ NORRSKEN_INLINE BlockCrossing cross_block(const TriangleBlock& block, const RayS
   c.crossed = to_bits(inside & (determinant != zero));
   if (c.crossed != 0) {
     const Octet inverse = Octet(1.0f) / determinant;
-    c.t = (u * inverse * z[0] + v * inverse * z[1] + w * inverse * z[2]) * Octet(r.shear[2]);
+    c.t = (z[0] + v * inverse * (z[1] - z[0]) + w * inverse * (z[2] - z[0])) * Octet(r.shear[2]);
   }
   return c;
 }

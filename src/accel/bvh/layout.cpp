@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "accel/bvh/fork.h"
 
@@ -91,6 +92,9 @@ class WideTree {
     const std::uint32_t on_the_left = roots_on_the_left(choices_[node], kBvhWidth);
     collect(BinaryTree::left(node), on_the_left, children);
     collect(tree_.right(node), kBvhWidth - on_the_left, children);
+    // Rays that look for any hit go to the last child first: to the largest, which hides most.
+    std::stable_sort(children.node, children.node + children.count,
+                     [&](std::uint32_t a, std::uint32_t b) { return half_area(nodes_[a]) < half_area(nodes_[b]); });
     return children;
   }
 
@@ -142,8 +146,9 @@ class WideTree {
 /// Writes nodes and blocks: a node, its blocks, then what is below its other children, each in one piece.
 class Writer {
  public:
-  Writer(const SceneTables& scene, const BinaryTree& tree, const WideTree& wide, CacheLine* lines)
-      : scene_(scene), tree_(tree), wide_(wide), lines_(lines) {}
+  Writer(const SceneTables& scene, const BinaryTree& tree, std::span<const std::uint32_t> primitives,
+         const WideTree& wide, CacheLine* lines)
+      : scene_(scene), tree_(tree), primitives_(primitives), wide_(wide), lines_(lines) {}
 
   void write_node(std::uint32_t node, std::uint32_t line, int threads) const {
     auto& to = *reinterpret_cast<BvhNode*>(lines_ + line);
@@ -175,7 +180,7 @@ class Writer {
     const BinaryNode& n = tree_.nodes[node];
     std::uint32_t primitives[kBvhWidth];
     std::fill(std::begin(primitives), std::end(primitives), kBvhNothing);
-    for (std::uint32_t i = 0; i < n.count; ++i) primitives[i] = tree_.references[n.first + i].primitive;
+    for (std::uint32_t i = 0; i < n.count; ++i) primitives[i] = primitives_[n.first + i];
     std::sort(std::begin(primitives), std::end(primitives));
     for (std::uint32_t i = 0; i < kBvhWidth; ++i) {
       const bool is_there = i < n.count;
@@ -214,9 +219,18 @@ class Writer {
 
   const SceneTables& scene_;
   const BinaryTree& tree_;
+  std::span<const std::uint32_t> primitives_;  ///< in the order of the tree
   const WideTree& wide_;
   CacheLine* lines_;
 };
+
+/// All that is needed of the references from then on; they take eight times as much.
+Array<std::uint32_t> take_primitives(BinaryTree& tree) {
+  Array<std::uint32_t> primitives(tree.references.size());
+  std::ranges::transform(tree.references, primitives.begin(), &TriangleReference::primitive);
+  tree.references = {};
+  return primitives;
+}
 
 /// Pages of the largest size, where the system has them: with small ones every step waits for an address as well.
 void ask_for_huge_pages(const void* begin, std::size_t bytes) {
@@ -228,8 +242,6 @@ void ask_for_huge_pages(const void* begin, std::size_t bytes) {
 
 }  // namespace
 
-BvhView Bvh::view() const { return {lines.data(), root, lines.size() * sizeof(CacheLine) > (std::size_t{24} << 20)}; }
-
 Bvh build_bvh(const SceneTables& scene, int threads) {
   BinaryTree tree = build_binary_tree(triangle_references(scene), threads);
   Bvh bvh;
@@ -237,11 +249,12 @@ Bvh build_bvh(const SceneTables& scene, int threads) {
   Array<Choice> choices(tree.nodes.size());
   WideTree wide(tree, choices);
   wide.choose(0, threads);
+  const Array<std::uint32_t> primitives = take_primitives(tree);
   const std::uint32_t line_count = wide.count_lines(0, threads);
   bvh.lines.reserve(line_count);
   ask_for_huge_pages(bvh.lines.data(), line_count * sizeof(CacheLine));
   bvh.lines.resize(line_count);
-  const Writer writer(scene, tree, wide, bvh.lines.data());
+  const Writer writer(scene, tree, primitives, wide, bvh.lines.data());
   bvh.root = wide.is_block(0) ? kBvhLeaf : 0;
   if (bvh.root == kBvhLeaf) {
     writer.write_block(0, 0);

@@ -13,9 +13,8 @@ namespace norrsken {
 struct Bvh {
   Array<CacheLine> lines;
   std::uint32_t root = kBvhNothing;
-  std::uint32_t node_count = 0, block_count = 0;
 
-  BvhView view() const;
+  BvhView view() const { return {lines.data(), root}; }
 };
 
 /// Of the triangles of a scene.

@@ -1,9 +1,9 @@
-// Rays against a hierarchy of triangles with a few spheres beside it, by the queue: some hundred are asked for at a time,
+// Rays against a hierarchy of triangles and what stands beside it, by the queue: some hundred are asked for at a time,
 // and answered register by register.
 #pragma once
 
+#include "accel/bvh/beside.h"
 #include "accel/bvh/traverse.h"
-#include "accel/sphere.h"
 #include "tables/wave_types.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -38,9 +38,7 @@ inline void closest_in_bvh(const AccelView& accel, const RayFields& rays, std::u
                            std::uint32_t* primitive_side) {
   for (std::uint32_t i = 0; i < count; i += kLanes) {
     ClosestHit hit = no_hit();
-    for (std::uint32_t k = 0; k < accel.sphere_count; ++k) {
-      closest_sphere(accel.spheres[k], rays.load_origin(i), rays.load_direction(i), hit);
-    }
+    closest_beside(accel, rays.load_origin(i), rays.load_direction(i), hit);
     store(t + i, hit.t);
     store(reinterpret_cast<float*>(primitive_side) + i, hit.primitive_side);
   }
@@ -53,13 +51,12 @@ inline void closest_in_bvh(const AccelView& accel, const RayFields& rays, std::u
 
 /// `t` becomes negative where anything is nearer.
 inline void occluded_in_bvh(const AccelView& accel, const RayFields& rays, std::uint32_t count, float* t) {
-  for (std::uint32_t i = 0; accel.sphere_count > 0 && i < count; i += kLanes) {
-    Mask occluded = Float(1.0f) < Float(0.0f);
-    const Float t_max = load(t + i);
-    for (std::uint32_t k = 0; k < accel.sphere_count; ++k) {
-      occluded |= occluded_by_sphere(accel.spheres[k], rays.load_origin(i), rays.load_direction(i), t_max);
+  if (accel.sphere_count + accel.analytic_count > 0) {
+    for (std::uint32_t i = 0; i < count; i += kLanes) {
+      const Float t_max = load(t + i);
+      const Mask occluded = occluded_beside(accel, rays.load_origin(i), rays.load_direction(i), t_max);
+      store(t + i, select(occluded, Float(-kInfinity), t_max));
     }
-    store(t + i, select(occluded, Float(-kInfinity), t_max));
   }
   traverse<Query::occlusion>(accel.bvh, {{rays.origin[0], rays.origin[1], rays.origin[2]},
                                          {rays.direction[0], rays.direction[1], rays.direction[2]},

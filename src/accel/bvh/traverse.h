@@ -9,7 +9,7 @@
 #pragma once
 
 #include "accel/bvh/cross_block.h"
-#include "accel/bvh/push_children.h"
+#include "accel/bvh/waiting_children.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -32,18 +32,6 @@ NORRSKEN_INLINE std::uint32_t met_children(const BvhNode& node, const RayState& 
   entry = max(max(near[0], near[1]), max(near[2], Octet(0.0f)));
   const Octet exit = min(min(far[0], far[1]), min(far[2], Octet(r.t)));
   return to_bits(entry <= exit * Octet(kLater));
-}
-
-/// Drops what begins behind the hit, so that whatever is left can be taken without a look.
-NORRSKEN_INLINE void drop_behind(RayState& r) {
-  const float limit = r.t * kLater;
-  std::uint32_t kept = 0;
-  for (std::uint32_t i = 0; i < r.waiting; ++i) {
-    r.child[kept] = r.child[i];
-    r.entry[kept] = r.entry[i];
-    kept += r.entry[i] <= limit ? 1u : 0u;
-  }
-  r.waiting = kept;
 }
 
 /// Whether the ray has ended here.
@@ -72,7 +60,7 @@ NORRSKEN_INLINE bool visit_block(const TriangleBlock& block, RayState& r) {
     r.t = t[i];
     r.primitive_side = primitive | (back ? 0x80000000u : 0u);
   }
-  if (r.t < before) drop_behind(r);
+  if (r.t < before) drop_behind(r, r.t * kLater);
   return false;
 }
 
@@ -83,19 +71,18 @@ NORRSKEN_INLINE void prefetch(const CacheLine* lines, std::uint32_t child) {
   __builtin_prefetch(line + 3 + (child >> 31));
 }
 
-/// `under_way` rays at a time.
-template <Query query, std::uint32_t under_way, bool prefetches>
+/// So many that what one of them needs has come from memory while the others took their steps. Measured from 650 to a million
+/// triangles (docs/performance.md): fewer lose, and so does it not to ask, even where all is in the cache.
+inline constexpr std::uint32_t kUnderWay = 16;
+
+template <Query query>
 __attribute__((noinline)) inline void traverse(const BvhView& bvh, const RaySpan& rays) {
-  RayState states[under_way];
-  RayState* active[under_way];
-  std::uint32_t next = 0, count = 0;
-  const auto start_next = [&](RayState& r) {
-    while (next < rays.count) {
-      if (start(r, rays, next++, bvh.root)) return true;
-    }
-    return false;
-  };
-  while (count < under_way && start_next(states[count])) active[count] = &states[count], ++count;
+  if (bvh.root == kBvhNothing) return;
+  RayState states[kUnderWay];
+  RayState* active[kUnderWay];
+  std::uint32_t count = 0;
+  RaysToStart to_start(rays, bvh.root);
+  while (count < kUnderWay && to_start.start_next(states[count])) active[count] = &states[count], ++count;
   while (count > 0) {
     for (std::uint32_t i = 0; i < count;) {
       RayState& r = *active[i];
@@ -115,29 +102,18 @@ __attribute__((noinline)) inline void traverse(const BvhView& bvh, const RaySpan
       }
       r.current = r.child[--r.waiting];
       if (!ended && r.current != kBvhNothing) {
-        if constexpr (prefetches) prefetch(bvh.lines, r.current);
+        prefetch(bvh.lines, r.current);
         ++i;
         continue;
       }
       rays.t[r.ray] = r.t;
       if (query == Query::closest && r.primitive_side != kBvhNothing) rays.primitive_side[r.ray] = r.primitive_side;
-      if (start_next(r)) {
+      if (to_start.start_next(r)) {
         ++i;
       } else {
         active[i] = active[--count];
       }
     }
-  }
-}
-
-/// As many as were measured to be best: see docs/performance.md.
-template <Query query>
-inline void traverse(const BvhView& bvh, const RaySpan& rays) {
-  if (bvh.root == kBvhNothing) return;
-  if (bvh.is_large) {
-    traverse<query, 16, true>(bvh, rays);
-  } else {
-    traverse<query, 4, false>(bvh, rays);
   }
 }
 

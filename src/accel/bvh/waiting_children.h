@@ -1,4 +1,4 @@
-// A ray's next children, put behind those that it has yet to come back to.
+// The children that a ray has yet to come back to: how more of them are put there, and how a hit takes some away.
 #pragma once
 
 #include "accel/bvh/ray_state.h"
@@ -26,6 +26,30 @@ NORRSKEN_INLINE OctetWords packed(OctetWords words, std::uint32_t bits) {
 }
 
 #endif
+
+/// Drops those that begin behind a hit, so that whatever is left can be taken without a look.
+NORRSKEN_INLINE void drop_behind(RayState& r, float limit) {
+  std::uint32_t kept = 0;
+#if NORRSKEN_LANES >= 8
+  const hn::FixedTag<std::uint32_t, 8> tag;
+  for (std::uint32_t i = 0; i < r.waiting; i += 8) {
+    const Octet entries = load_octet(r.entry + i);
+    const std::uint32_t there = r.waiting - i < 8 ? (1u << (r.waiting - i)) - 1u : 0xffu;
+    const std::uint32_t stay = to_bits(entries <= Octet(limit)) & there;
+    // Not further than what has been read.
+    hn::StoreU(packed(load_octet_words(r.child + i), stay), tag, r.child + kept);
+    hn::StoreU(packed(hn::BitCast(tag, entries.v), stay), tag, reinterpret_cast<std::uint32_t*>(r.entry) + kept);
+    kept += static_cast<std::uint32_t>(__builtin_popcount(stay));
+  }
+#else
+  for (std::uint32_t i = 0; i < r.waiting; ++i) {
+    r.child[kept] = r.child[i];
+    r.entry[kept] = r.entry[i];
+    kept += r.entry[i] <= limit ? 1u : 0u;
+  }
+#endif
+  r.waiting = kept;
+}
 
 /// In the order of the node.
 NORRSKEN_INLINE void push_unsorted(RayState& r, const BvhNode& node, std::uint32_t bits) {
