@@ -96,7 +96,31 @@ class ClosestOfQueue {
  private:
   void ask_from(std::uint32_t i) {
     const std::uint32_t rest = count_ - i;
-    closest_in_bvh(scene_.accel, rays_.from(i), rest < kRaysAtATime ? rest : kRaysAtATime, t_, primitive_side_);
+    const std::uint32_t count = rest < kRaysAtATime ? rest : kRaysAtATime;
+    closest_in_bvh(scene_.accel, rays_.from(i), count, t_, primitive_side_);
+    fetch_triangles(count);
+  }
+
+  /// Asks memory for what shading will want of the triangles: one ray hits here, the next there.
+  void fetch_triangles(std::uint32_t count) const {
+    constexpr std::uint32_t kAhead = 16;  // what the vertices are found by comes first
+    for (std::uint32_t k = 0; k < count + kAhead; ++k) {
+      if (k < count && is_triangle(k)) {
+        const std::uint32_t triangle = primitive_side_[k] & kPrimitiveMask;
+        __builtin_prefetch(scene_.triangle_vertices + std::size_t{3} * triangle);
+        __builtin_prefetch(scene_.surfaces + triangle);
+      }
+      if (k < kAhead || !is_triangle(k - kAhead)) continue;
+      const std::uint32_t triangle = primitive_side_[k - kAhead] & kPrimitiveMask;
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        const std::size_t vertex = std::size_t{3} * scene_.triangle_vertices[std::size_t{3} * triangle + c];
+        __builtin_prefetch(scene_.positions + vertex);
+        if (scene_.any_smooth) __builtin_prefetch(scene_.normals + vertex);
+      }
+    }
+  }
+  bool is_triangle(std::uint32_t k) const {
+    return t_[k] < kInfinity && (primitive_side_[k] & kPrimitiveMask) < scene_.triangle_count;
   }
 
   const SceneView& scene_;

@@ -20,7 +20,7 @@ constexpr std::uint32_t kHeuristicLevels = kBvhMostLevels - 33;
 constexpr std::uint32_t kWorthAThread = 16'384;
 
 /// Along the axes; the fourth component is idle.
-using Float4 [[gnu::vector_size(16)]] = float;
+using Float4 = float __attribute__((vector_size(16)));
 
 struct Bounds {
   Float4 lower, upper;
@@ -64,7 +64,7 @@ struct Binning {
   bool divides(int axis) const { return per_width[axis] > 0.0f; }
   /// The bins along all axes.
   auto bins_of(const Bounds& b) const {
-    using Int4 [[gnu::vector_size(16)]] = std::int32_t;
+    using Int4 = std::int32_t __attribute__((vector_size(16)));
     return __builtin_convertvector((b.lower + b.upper - first) * per_width, Int4);
   }
 };

@@ -14,7 +14,7 @@ namespace norrsken {
 namespace {
 
 /// What a ray pays for a node and for a block, measured.
-constexpr float kNodeCost = 1.0f, kBlockCost = 0.7f;
+constexpr float kNodeCost = 1.0f, kBlockCost = 1.4f;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t kWorthAThread = 16'384;
 
