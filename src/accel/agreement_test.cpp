@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::Values("hexagon_room", "sou
 /// What is tried one by one beside the hierarchy is what Embree's callbacks find, flipped and squeezed, with its side.
 TEST(BesideTheHierarchy, IsMetAsThroughEmbree) {
   const std::string shapes[] = {"sphere", "disk", "cylinder"};
-  std::string xml = R"(<scene version="3.0.0"><sensor type="perspective"/>
+  std::string xml = R"(<scene version="3.0.0"><sensor type="perspective"/><emitter type="constant"/>
     <shape type="cube"><transform name="to_world"><scale value="3"/></transform></shape>)";
   for (int i = 0; i < 12; ++i) {
     const std::string& type = shapes[i % 3];

@@ -76,8 +76,8 @@ NORRSKEN_INLINE Mask occluded_lanes(const SceneView& scene, const Vec3f& o, cons
   return active;
 }
 
-/// The closest hits of a queue's rays, asked for in their order, register by register: what takes rays by the wave has
-/// them by then.
+/// The closest hits of a queue's rays, asked for in their order, none left out, register by register: what takes rays by the
+/// wave has them by then.
 class ClosestOfQueue {
  public:
   ClosestOfQueue(const SceneView& scene, bool coherent, const RayFields& rays, std::uint32_t count)
