@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "accel/embree_elements.h"
+#include "base/huge_pages.h"
 
 namespace norrsken {
 namespace {
@@ -18,6 +19,11 @@ Array<float> triangle_extents(const SceneTables& scene) {
     }
   }
   return extents;
+}
+
+template <class T>
+void move_to_huge_pages(const Array<T>& values) {
+  norrsken::move_to_huge_pages(values.data(), values.size() * sizeof(T));
 }
 
 }  // namespace
@@ -49,6 +55,13 @@ Accel::Accel(const SceneTables& scene, AccelKind kind, int threads) {
   } else if (kind == AccelKind::bvh) {
     bvh_ = build_bvh(scene, threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
     view_.bvh = bvh_.view();
+    // Shading looks at what was hit: each ray at another place.
+    move_to_huge_pages(scene.positions);
+    move_to_huge_pages(scene.normals);
+    move_to_huge_pages(scene.texcoords);
+    move_to_huge_pages(scene.triangle_vertices);
+    move_to_huge_pages(scene.surfaces);
+    move_to_huge_pages(triangle_extent_);
     view_.analytics = scene.analytics.data();
     view_.analytic_count = static_cast<std::uint32_t>(scene.analytics.size());
     view_.first_analytic = scene.first_analytic;

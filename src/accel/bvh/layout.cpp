@@ -1,7 +1,5 @@
 #include "accel/bvh/layout.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <span>
 
 #include "accel/bvh/fork.h"
+#include "base/huge_pages.h"
 
 namespace norrsken {
 namespace {
@@ -230,14 +229,6 @@ Array<std::uint32_t> take_primitives(BinaryTree& tree) {
   std::ranges::transform(tree.references, primitives.begin(), &TriangleReference::primitive);
   tree.references = {};
   return primitives;
-}
-
-/// Pages of the largest size, where the system has them: with small ones every step waits for an address as well.
-void ask_for_huge_pages(const void* begin, std::size_t bytes) {
-  constexpr std::uintptr_t kHugePage = std::uintptr_t{1} << 21;
-  const auto first = (reinterpret_cast<std::uintptr_t>(begin) + kHugePage - 1) & ~(kHugePage - 1);
-  const auto last = (reinterpret_cast<std::uintptr_t>(begin) + bytes) & ~(kHugePage - 1);
-  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
 }
 
 }  // namespace
