@@ -10,7 +10,7 @@
 
 namespace norrsken {
 
-/// A triangle by its bounds. A triangle may have several, each bounding a part of it.
+/// A triangle by its bounds.
 struct TriangleReference {
   float lower[3];
   std::uint32_t primitive;
@@ -37,7 +37,7 @@ struct BinaryTree {
   std::uint32_t right(std::uint32_t node) const { return node + 2 * nodes[node + 1].count; }
 };
 
-/// References to all triangles of one group (kNone: those in no group) that rays can meet.
+/// References to all triangles that rays can meet.
 Array<TriangleReference> triangle_references(const SceneTables& scene);
 
 /// Down to single references. The tree does not depend on the number of threads, and has at most kBvhMostLevels levels.

@@ -1,7 +1,7 @@
 // Two halves of a recursion, side by side.
 #pragma once
 
-#include <system_error>
+#include <exception>
 #include <thread>
 
 namespace norrsken {
@@ -15,8 +15,8 @@ void fork(int threads, const First& first, const Second& second) {
       const std::jthread other([&] { second(threads / 2); });
       first(threads - threads / 2);
       return;
-    } catch (const std::system_error&) {
-      // The system has no more threads.
+    } catch (const std::exception&) {
+      // The system has no more threads, or no memory for one.
     }
   }
   first(1);

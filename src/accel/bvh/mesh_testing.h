@@ -127,6 +127,20 @@ inline TestRay ray_between(const glm::dvec3& from, const glm::dvec3& to) {
   return {o, glm::vec3(glm::normalize(to - glm::dvec3(o)))};
 }
 
+inline glm::dvec3 near(const glm::dvec3& p, double size, TestRandom& random) { return p + random.in_cube() * size; }
+
+/// Triangles anywhere in a cube, about `size` of it large.
+inline TestMesh soup(std::uint32_t triangles, const glm::dvec3& center, double scale, double size, unsigned seed) {
+  TestRandom random(seed);
+  TestMesh mesh;
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const glm::dvec3 p = center + random.in_cube() * scale;
+    mesh.add_triangle(near(p, size * scale, random), near(p, size * scale, random), near(p, size * scale, random));
+  }
+  mesh.finish();
+  return mesh;
+}
+
 /// A closed bumpy sphere around the origin whose triangles share their corners.
 inline TestMesh bumpy_sphere(std::uint32_t rows, double scale) {
   TestMesh mesh;
