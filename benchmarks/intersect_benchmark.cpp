@@ -1,5 +1,5 @@
 // The intersectors on incoherent and coherent rays: rays per second on one core, per instruction set. The displaced
-// spheres of growing triangle count show where Embree overtakes the planes (planes_up_to in src/accel/build.h); on the
+// spheres of growing triangle count show where the hierarchy overtakes the planes (planes_up_to in src/accel/build.h); on the
 // largest, `bare` is nothing but a loop over rtcIntersect1 with the same rays.
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
@@ -54,7 +54,7 @@ void occluded(benchmark::State& state, const KernelEntry& kernels, const BenchSc
 }
 
 void register_all() {
-  for (const AccelKind kind : {AccelKind::planes, AccelKind::moller_trumbore, AccelKind::embree}) {
+  for (const AccelKind kind : {AccelKind::planes, AccelKind::moller_trumbore, AccelKind::bvh, AccelKind::embree}) {
     const BenchScene& room = bench_room(kind);
     for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
       const std::string suffix = std::string("/room/") + accel_name(kind) + "/" + (*k)->name;
@@ -67,8 +67,8 @@ void register_all() {
     }
   }
   for (const int triangles : {16, 32, 64, 128, 256, 512, 1024, 4096}) {
-    for (const AccelKind kind : {AccelKind::planes, AccelKind::moller_trumbore, AccelKind::embree}) {
-      if (kind != AccelKind::embree && triangles > 1024) continue;
+    for (const AccelKind kind : {AccelKind::planes, AccelKind::moller_trumbore, AccelKind::bvh, AccelKind::embree}) {
+      if ((kind == AccelKind::planes || kind == AccelKind::moller_trumbore) && triangles > 1024) continue;
       const BenchScene& mesh = bench_sphere_mesh(triangles, kind);
       for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
         const std::string name =
@@ -80,12 +80,15 @@ void register_all() {
   // Built when it is first asked for: it takes seconds.
   for (const bool coherent : {false, true}) {
     const std::string rays = coherent ? "camera" : "closest";
-    const auto mesh = [] { return &bench_sphere_mesh(1'000'000, AccelKind::embree); };
+    const auto mesh = [](AccelKind kind) { return &bench_sphere_mesh(1'000'000, kind); };
     benchmark::RegisterBenchmark((rays + "/mesh_1000000/bare").c_str(),
-                                 [coherent, mesh](auto& state) { bare(state, *mesh(), coherent); });
-    for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
-      benchmark::RegisterBenchmark((rays + "/mesh_1000000/embree/" + (*k)->name).c_str(),
-                                   [k, coherent, mesh](auto& state) { closest(state, **k, *mesh(), coherent); });
+                                 [coherent, mesh](auto& state) { bare(state, *mesh(AccelKind::embree), coherent); });
+    for (const AccelKind kind : {AccelKind::bvh, AccelKind::embree}) {
+      for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+        benchmark::RegisterBenchmark(
+            (rays + "/mesh_1000000/" + accel_name(kind) + "/" + (*k)->name).c_str(),
+            [k, coherent, mesh, kind](auto& state) { closest(state, **k, *mesh(kind), coherent); });
+      }
     }
   }
 }

@@ -1,9 +1,10 @@
-// Whole renders of a large mesh through Embree against a bare loop over rtcIntersect1 and rtcOccluded1 with the very rays
-// of the render: million rays a second of both, and their ratio.
+// Whole renders of a large mesh, through the hierarchy and through Embree, against a bare loop over rtcIntersect1 and
+// rtcOccluded1 with the very rays of the render, and against the hierarchy with the same: million rays a second of each, and
+// their ratio to the first.
 //
-//   mesh_render [--triangles N] [--size N] [--spp N] [--rounds N] [--threads N...] [--isa NAME]
+//   mesh_render [--triangles N] [--scene FILE] [--size N] [--spp N] [--rounds N] [--threads N...] [--isa NAME]
 //
-// The scene is the displaced sphere of make_mesh inside the hexagon room. The waves of the render are traced stage by
+// The scene is the displaced sphere of make_mesh inside the hexagon room, or a file's. The waves of the render are traced stage by
 // stage and their rays kept; that they are the render's is checked by what every path brings home. Bare loops and renders
 // take turns.
 #include <embree3/rtcore.h>
@@ -30,18 +31,22 @@ struct Settings {
   std::uint32_t triangles = 1'000'000;
   int size = 400, spp = 16, rounds = 5;
   std::vector<int> threads = {1, 2};
-  std::string isa = "auto";
+  std::string isa = "auto", scene;
 };
 
 Scene load_scene(const Settings& settings) {
   const TemporaryFolder folder;
-  write_scene(sphere_grid(settings.triangles, false), "ply", folder.path());
   LoadOptions options;
-  options.parameters = {{"shadow_rays", "1"}};
+  std::string file = settings.scene;
+  if (file.empty()) {
+    write_scene(sphere_grid(settings.triangles, false), "ply", folder.path());
+    options.parameters = {{"shadow_rays", "1"}};
+    file = folder.file("scene.xml");
+  }
   options.width = options.height = settings.size;
   options.samples_per_pixel = settings.spp;
   Diagnostics diagnostics;
-  const std::optional<Scene> scene = Scene::load(folder.file("scene.xml"), options, diagnostics);
+  const std::optional<Scene> scene = Scene::load(file, options, diagnostics);
   if (!scene) throw std::runtime_error(to_text(diagnostics.all().at(0)));
   return *scene;
 }
@@ -50,11 +55,20 @@ Scene load_scene(const Settings& settings) {
 struct Batch {
   bool shadow;
   std::vector<RTCRay> rays;
+  AlignedVector<float> fields;  ///< the same as arrays: origins, directions, distances
+
+  std::size_t stride() const { return (rays.size() + kMaxLanes) / kMaxLanes * kMaxLanes; }
+  const float* field(std::size_t k) const { return fields.data() + k * stride(); }
+  RayArrays arrays() const {
+    return {field(0), field(1), field(2), field(3), field(4), field(5), static_cast<std::uint32_t>(rays.size())};
+  }
 };
 
 void keep_rays(const Queue& queue, bool shadow, std::vector<Batch>& batches) {
   static_assert(int{kRayOriginX} == int{kShadowOriginX} && int{kRayDirectionX} == int{kShadowDirectionX});
-  Batch& batch = batches.emplace_back(Batch{shadow, {}});
+  static_assert(kRayOriginX == 0 && kRayDirectionX == 3 && kShadowDistance == 6);
+  if (queue.count == 0) return;
+  Batch& batch = batches.emplace_back(Batch{shadow, {}, {}});
   batch.rays.reserve(queue.count);
   for (std::uint32_t i = 0; i < queue.count; ++i) {
     const auto value = [&](std::uint32_t field) { return queue.field(field)[i]; };
@@ -62,35 +76,16 @@ void keep_rays(const Queue& queue, bool shadow, std::vector<Batch>& batches) {
                           value(kRayDirectionY), value(kRayDirectionZ), 0.0f,
                           shadow ? value(kShadowDistance) : __builtin_inff(), ~0u, 0u, 0u});
   }
+  batch.fields.resize(7 * batch.stride());
+  for (std::uint32_t k = 0; k < (shadow ? 7u : 6u); ++k)
+    std::copy_n(queue.field(k), queue.count, batch.fields.data() + k * batch.stride());
 }
 
-/// trace_wave (src/wave/schedule.h) for scenes of models alone, one direction per hit, its rays kept.
-void trace_and_keep(const SceneView& scene, const KernelEntry& kernels, const WaveJob& job, WaveMemory& memory,
-                    std::vector<Batch>& batches) {
-  kernels.generate_camera_rays(scene, job, memory.slots, memory.rays);
-  const auto max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
-  for (std::uint32_t hit_number = 1; hit_number <= max_depth && memory.rays.count > 0; ++hit_number) {
-    keep_rays(memory.rays, false, batches);
-    for (Queue& hits : memory.hits) hits.count = 0;
-    memory.light_hits.count = memory.next_rays.count = 0;
-    const bool last = hit_number == max_depth && hit_number > 1;
-    if (last) {
-      kernels.intersect_emitters(scene, memory.rays, memory);
-    } else {
-      kernels.intersect_closest(scene, hit_number, hit_number == max_depth ? 0u : ~1u, memory.rays, memory);
-    }
-    kernels.shade_emission(scene, memory.light_hits, memory.slots);
-    if (hit_number == max_depth) break;
-    const bool roulette = hit_number >= static_cast<std::uint32_t>(scene.integrator.rr_depth);
-    for (std::uint32_t kind = 1; kind < kModelCount; ++kind) {
-      memory.shadow_rays.count = 0;
-      kernels.shade_surface(scene, static_cast<BsdfKind>(kind), hit_number, roulette, memory.hits[kind], memory.slots,
-                            memory.shadow_rays, memory.next_rays);
-      keep_rays(memory.shadow_rays, true, batches);
-      kernels.intersect_shadow(scene, memory.shadow_rays, memory.slots);
-    }
-    std::swap(memory.rays, memory.next_rays);
-  }
+/// Told of every step of a wave, it keeps the rays that are about to be asked.
+void keep_event(void* batches, WaveEvent event, const WaveMemory& memory) {
+  auto& to = *static_cast<std::vector<Batch>*>(batches);
+  if (event == WaveEvent::camera_rays || event == WaveEvent::next_rays) keep_rays(memory.rays, false, to);
+  if (event == WaveEvent::shadow_rays) keep_rays(memory.shadow_rays, true, to);
 }
 
 std::uint64_t count_rays(const std::vector<Batch>& batches, bool shadow) {
@@ -100,34 +95,41 @@ std::uint64_t count_rays(const std::vector<Batch>& batches, bool shadow) {
 }
 
 std::vector<Batch> rays_of_render(const SceneView& scene, const KernelEntry& kernels, std::uint64_t samples) {
-  WaveArena kept, whole;
+  WaveArena arena;
   WaveCounts counts;
   std::vector<Batch> batches;
+  arena.memory().observer = {keep_event, &batches};
   const TileGrid grid(static_cast<std::uint32_t>(scene.film.width), static_cast<std::uint32_t>(scene.film.height),
                       kWaveSlots);
   const WorkPlan plan(grid, {0, static_cast<std::uint32_t>(samples)}, 0);
   for (std::uint64_t wave = 0; wave < plan.wave_count(); ++wave) {
-    const WaveJob job = plan.wave(wave);
-    trace_and_keep(scene, kernels, job, kept.memory(), batches);
-    kernels.trace_wave(scene, job, whole.memory(), counts);
-    for (std::uint32_t channel = kSlotRed; channel <= kSlotBlue; ++channel) {
-      const float* a = kept.memory().slots.field(channel);
-      if (!std::equal(a, a + job.slot_count(), whole.memory().slots.field(channel)))
-        throw std::runtime_error("the rays that were kept are not those of the render");
-    }
+    kernels.trace_wave(scene, plan.wave(wave), arena.memory(), counts);
   }
   if (count_rays(batches, false) != counts.closest_rays || count_rays(batches, true) != counts.shadow_rays)
     throw std::runtime_error("other rays were kept than the render counts");
   return batches;
 }
 
+/// The hierarchy alone.
+void trace_hierarchy(const SceneView& scene, const KernelEntry& kernels, const Batch& batch) {
+  AlignedVector<float> t(batch.rays.size() + kMaxLanes);
+  AlignedVector<std::uint32_t> primitives(batch.rays.size() + kMaxLanes);
+  AlignedVector<std::uint8_t> occluded(batch.rays.size());
+  const RayArrays rays = batch.arrays();
+  if (batch.shadow) {
+    kernels.occluded_rays(scene, rays, batch.field(6), occluded.data());
+  } else {
+    kernels.closest_rays(scene, false, rays, t.data(), primitives.data());
+  }
+}
+
 /// What became of a ray must be written down somewhere.
-void trace_bare(RTCScene scene, const Batch& batch, bool intersect_all, std::vector<float>& distances) {
+void trace_bare(RTCScene scene, const Batch& batch) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  distances.resize(std::max(distances.size(), batch.rays.size()));
+  std::vector<float> distances(batch.rays.size());
   for (std::size_t i = 0; i < batch.rays.size(); ++i) {
-    if (batch.shadow && !intersect_all) {
+    if (batch.shadow) {
       RTCRay ray = batch.rays[i];
       rtcOccluded1(scene, &context, &ray);
       distances[i] = ray.tfar;
@@ -141,12 +143,12 @@ void trace_bare(RTCScene scene, const Batch& batch, bool intersect_all, std::vec
   }
 }
 
-void trace_all_bare(RTCScene scene, const std::vector<Batch>& batches, bool intersect_all, int threads) {
+/// `trace` of every batch, by so many threads.
+template <class Trace>
+void trace_all(const std::vector<Batch>& batches, int threads, const Trace& trace) {
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
-    std::vector<float> distances;
-    for (std::size_t i = next++; i < batches.size(); i = next++)
-      trace_bare(scene, batches[i], intersect_all, distances);
+    for (std::size_t i = next++; i < batches.size(); i = next++) trace(batches[i]);
   };
   std::vector<std::jthread> crew;
   crew.reserve(static_cast<std::size_t>(threads));
@@ -193,50 +195,56 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Million rays a second, medians over the rounds; and of each round's ratio of both kinds of seconds to those of the
-/// render.
+/// Million rays a second, medians over the rounds; and of each round's ratio of both kinds of rates to those of the
+/// bare loop.
 void print_row(const char* name, std::uint64_t rays, const std::vector<Seconds>& row,
-               const std::vector<Seconds>& render_row) {
+               const std::vector<Seconds>& bare_row) {
   const auto over_rounds = [&](auto value) {
     std::vector<double> values;
-    for (std::size_t i = 0; i < row.size(); ++i) values.push_back(value(row[i], render_row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i) values.push_back(value(row[i], bare_row[i]));
     return median(values);
   };
   const double count = static_cast<double>(rays) * 1e-6;
   fmt::print("| {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n", name,
              over_rounds([&](const Seconds& s, const Seconds&) { return count / s.clock; }),
              over_rounds([&](const Seconds& s, const Seconds&) { return count / s.processor; }),
-             over_rounds([](const Seconds& s, const Seconds& r) { return s.clock / r.clock; }),
-             over_rounds([](const Seconds& s, const Seconds& r) { return s.processor / r.processor; }));
+             over_rounds([](const Seconds& s, const Seconds& b) { return b.clock / s.clock; }),
+             over_rounds([](const Seconds& s, const Seconds& b) { return b.processor / s.processor; }));
 }
 
 void compare(const Settings& settings) {
   const Scene loaded = load_scene(settings);
   const KernelEntry* kernels = find_kernels(settings.isa.c_str());
   if (kernels == nullptr) throw std::runtime_error("no instruction set " + settings.isa);
-  const BenchScene scene(std::shared_ptr<const SceneTables>(&loaded.tables().tables, [](auto*) {}), AccelKind::embree);
+  const std::shared_ptr<const SceneTables> tables(&loaded.tables().tables, [](auto*) {});
+  const BenchScene own(tables, AccelKind::bvh), through_embree(tables, AccelKind::embree);
   const auto samples = static_cast<std::uint64_t>(settings.spp);
-  const std::vector<Batch> batches = rays_of_render(scene.view(), *kernels, samples);
+  const std::vector<Batch> batches = rays_of_render(own.view(), *kernels, samples);
   const std::uint64_t closest = count_rays(batches, false), shadow = count_rays(batches, true);
-  auto* embree = static_cast<RTCScene>(scene.view().accel.embree_scene);
+  auto* embree = static_cast<RTCScene>(through_embree.view().accel.embree_scene);
 
   fmt::print("{} triangles, {}x{} pixels, {} samples each, {}: {:.2f} M closest hits and {:.2f} M shadow rays\n",
-             scene.tables().triangle_count(), settings.size, settings.size, settings.spp, kernels->name,
+             tables->triangle_count(), settings.size, settings.size, settings.spp, kernels->name,
              static_cast<double>(closest) * 1e-6, static_cast<double>(shadow) * 1e-6);
   for (const int threads : settings.threads) {
-    std::vector<Seconds> whole, bare, bare_intersect;
+    std::vector<Seconds> whole, bare, hierarchy, whole_embree;
     for (int round = 0; round < settings.rounds; ++round) {
-      whole.push_back(seconds_of(threads, [&] { render(scene.view(), *kernels, samples, threads); }));
-      bare.push_back(seconds_of(threads, [&] { trace_all_bare(embree, batches, false, threads); }));
-      bare_intersect.push_back(seconds_of(threads, [&] { trace_all_bare(embree, batches, true, threads); }));
+      whole.push_back(seconds_of(threads, [&] { render(own.view(), *kernels, samples, threads); }));
+      bare.push_back(seconds_of(
+          threads, [&] { trace_all(batches, threads, [&](const Batch& batch) { trace_bare(embree, batch); }); }));
+      hierarchy.push_back(seconds_of(threads, [&] {
+        trace_all(batches, threads, [&](const Batch& batch) { trace_hierarchy(own.view(), *kernels, batch); });
+      }));
+      whole_embree.push_back(seconds_of(threads, [&] { render(through_embree.view(), *kernels, samples, threads); }));
     }
     fmt::print(
-        "\n| {} thread{} | Mrays/s by the clock | by the processor | render / this, clock | processor |\n"
+        "\n| {} thread{} | Mrays/s by the clock | by the processor | this / bare Embree, clock | processor |\n"
         "|---|---|---|---|---|\n",
         threads, threads == 1 ? "" : "s");
-    print_row("whole render", closest + shadow, whole, whole);
-    print_row("bare rtcIntersect1 and rtcOccluded1", closest + shadow, bare, whole);
-    print_row("bare rtcIntersect1 for all", closest + shadow, bare_intersect, whole);
+    print_row("bare rtcIntersect1 and rtcOccluded1", closest + shadow, bare, bare);
+    print_row("whole render", closest + shadow, whole, bare);
+    print_row("hierarchy alone", closest + shadow, hierarchy, bare);
+    print_row("whole render through Embree", closest + shadow, whole_embree, bare);
   }
 }
 
@@ -244,9 +252,10 @@ void compare(const Settings& settings) {
 }  // namespace norrsken
 
 int main(int argc, char** argv) try {
-  CLI::App app{"Renders of a large mesh against a bare loop over Embree with the same rays."};
+  CLI::App app{"Renders of a large mesh against bare loops with the same rays."};
   norrsken::Settings settings;
   app.add_option("--triangles", settings.triangles, "about how many")->check(CLI::Range(1000u, 100'000'000u));
+  app.add_option("--scene", settings.scene, "a file of triangles and spheres instead")->check(CLI::ExistingFile);
   app.add_option("--size", settings.size, "pixels a side")->check(CLI::Range(16, 4096));
   app.add_option("--spp", settings.spp, "samples per pixel")->check(CLI::Range(1, 4096));
   app.add_option("--rounds", settings.rounds, "of which the medians are told")->check(CLI::Range(1, 1000));

@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto exr = read_exr_header(contents);
   fuzz::require(!exr || (exr->width > 0 && exr->height > 0), "a header that is read has a size");
   const ReadAt read_at = [&](std::uint64_t at, std::size_t most) {
-    return contents.substr(std::min<std::uint64_t>(at, contents.size()), most);
+    return std::string(contents.substr(std::min<std::uint64_t>(at, contents.size()), most));
   };
   if (is_png(contents) && read_png_header(read_at, header).empty()) {
     fuzz::require(header.width > 0 && header.height > 0 && !header.channels.empty(), "a PNG has a size and channels");

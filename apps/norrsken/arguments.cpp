@@ -290,7 +290,7 @@ void MachineArguments::add_to(CLI::App& command, bool with_accelerator) {
   if (!with_accelerator) return;
   command
       .add_option("--accel", accelerator,
-                  "How rays find what they hit: auto (default), planes, moller_trumbore, embree")
+                  "How rays find what they hit: auto (default), planes, moller_trumbore, bvh, embree")
       ->type_name("NAME");
 }
 

@@ -50,7 +50,7 @@ void print_as_json(const std::string& scene, const SceneInfo& info) {
                                      {"film_bytes", info.memory.film},
                                      {"image_bytes", info.memory.image},
                                      {"loading_peak_bytes", info.memory.loading},
-                                     {"embree_estimate_bytes", info.memory.embree}}},
+                                     {"acceleration_estimate_bytes", info.memory.acceleration}}},
                                    {"parameters", parameters},
                                    {"changes", info.changes},
                                    {"files", info.files},
@@ -85,8 +85,8 @@ void print_as_text(const std::string& scene, const SceneInfo& info) {
   row("memory", fmt::format("geometry {}, textures {}, other tables {}; film {}, its image {}",
                             format_bytes(memory.geometry), format_bytes(memory.textures),
                             format_bytes(memory.other_tables), format_bytes(memory.film), format_bytes(memory.image)));
-  row("", fmt::format("{} at most while it was loaded, without film and image; about {} for Embree, if it is used",
-                      format_bytes(memory.loading), format_bytes(memory.embree)));
+  row("", fmt::format("{} at most while it was loaded, without film and image; about {} for its acceleration structure",
+                      format_bytes(memory.loading), format_bytes(memory.acceleration)));
   row("hash", fmt::format("{} of its files ({} beside what is built in)", info.hash, info.files.size()));
 
   if (!info.parameters.empty()) {

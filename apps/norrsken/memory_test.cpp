@@ -116,11 +116,11 @@ TEST_F(MaxMemory, CountsWhatAMeshTakes) {
   expect_near(loading, info.peak_memory, kProgram);
   EXPECT_GT(loading, 48 * kMebibyte) << "large enough to tell";
 
-  // With Embree's structure, of which there is but an estimate before.
+  // With the acceleration structure, of which there is but an estimate before.
   const ProcessResult rendered = render();
   ASSERT_EQ(rendered.status, 0) << rendered.err;
   const std::uint64_t resident =
-      memory.at("geometry_bytes").get<std::uint64_t>() + memory.at("embree_estimate_bytes").get<std::uint64_t>();
+      memory.at("geometry_bytes").get<std::uint64_t>() + memory.at("acceleration_estimate_bytes").get<std::uint64_t>();
   expect_near(resident, rendered.peak_memory, kProgram, 2);
 }
 

@@ -29,7 +29,7 @@ struct RenderOptions {
   std::uint64_t seed = 0;
   int threads = 0;                   ///< 0: one per hardware thread
   std::string isa = "auto";          ///< auto, scalar, sse4.2, avx2, avx512
-  std::string accelerator = "auto";  ///< auto, planes, moller_trumbore, embree
+  std::string accelerator = "auto";  ///< auto, planes, moller_trumbore, bvh, embree
   bool features = false;             ///< also render depth, normal, albedo and object id of the first hits
   /// File that holds the state of the rendering, if not empty: Render::create takes up what it holds of the same
   /// rendering (fewer samples of it, too), and `run` writes it, at its end as well. The one before stays as FILE.1.

@@ -58,10 +58,10 @@ struct SceneInfo {
   /// Bytes, as the budget counts them.
   struct Memory {
     std::uint64_t geometry = 0, textures = 0, other_tables = 0;
-    std::uint64_t loading = 0;  ///< the most that was counted at once while the scene was loaded
-    std::uint64_t film = 0;     ///< at its size
-    std::uint64_t image = 0;    ///< that the film becomes, with all layers, and writing it
-    std::uint64_t embree = 0;   ///< an estimate of what the acceleration structure takes, if Embree makes it
+    std::uint64_t loading = 0;       ///< the most that was counted at once while the scene was loaded
+    std::uint64_t film = 0;          ///< at its size
+    std::uint64_t image = 0;         ///< that the film becomes, with all layers, and writing it
+    std::uint64_t acceleration = 0;  ///< an estimate of what the acceleration structure of a large scene takes
     std::uint64_t tables() const { return geometry + textures + other_tables; }
   } memory;
 };

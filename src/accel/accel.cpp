@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
+
+#include "accel/embree_elements.h"
+#include "base/huge_pages.h"
 
 namespace norrsken {
 namespace {
@@ -17,9 +21,19 @@ Array<float> triangle_extents(const SceneTables& scene) {
   return extents;
 }
 
+template <class T>
+void move_to_huge_pages(const Array<T>& values) {
+  norrsken::move_to_huge_pages(values.data(), values.size() * sizeof(T));
+}
+
 }  // namespace
 
-Accel::Accel(const SceneTables& scene, AccelKind kind) {
+bool bvh_knows(const SceneTables& scene) {
+  return scene.group_count == 0 &&
+         std::ranges::none_of(scene.analytics, [](const AnalyticRecord& a) { return has_elements(a.kind); });
+}
+
+Accel::Accel(const SceneTables& scene, AccelKind kind, int threads) {
   spheres_ = build_spheres(scene);
   view_.kind = kind;
   view_.sphere_count = static_cast<std::uint32_t>(spheres_.size());
@@ -38,6 +52,19 @@ Accel::Accel(const SceneTables& scene, AccelKind kind) {
     view_.all = planes_.all;
     view_.occluders = planes_.occluders;
     view_.emitters = planes_.emitters;
+  } else if (kind == AccelKind::bvh) {
+    bvh_ = build_bvh(scene, threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
+    view_.bvh = bvh_.view();
+    // Shading looks at what was hit: each ray at another place.
+    move_to_huge_pages(scene.positions);
+    move_to_huge_pages(scene.normals);
+    move_to_huge_pages(scene.texcoords);
+    move_to_huge_pages(scene.triangle_vertices);
+    move_to_huge_pages(scene.surfaces);
+    move_to_huge_pages(triangle_extent_);
+    view_.analytics = scene.analytics.data();
+    view_.analytic_count = static_cast<std::uint32_t>(scene.analytics.size());
+    view_.first_analytic = scene.first_analytic;
   } else if (kind == AccelKind::embree) {
     embree_ = std::make_unique<EmbreeScene>(scene, spheres_);
     embree_->show(view_);

@@ -1,10 +1,11 @@
-// The three intersectors must agree ray by ray. Where they do not, the ray must run along an edge, which double
+// The intersectors must agree ray by ray. Where they do not, the ray must run along an edge, which double
 // precision decides.
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "accel/polygons.h"
 #include "isa/kernel_testing.h"
+#include "tests/temporary_folder.h"
 
 namespace norrsken {
 namespace {
@@ -89,7 +90,7 @@ class Agreement : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Agreement, ClosestHits) {
-  const auto reference = load(AccelKind::moller_trumbore), planes = load(AccelKind::planes),
+  const auto reference = load(AccelKind::moller_trumbore), planes = load(AccelKind::planes), bvh = load(AccelKind::bvh),
              embree = load(AccelKind::embree);
   // Rays from a box half again as large as the scene: from inside and from outside, from behind every surface.
   const SceneInfo info = reference->scene.info();
@@ -102,6 +103,7 @@ TEST_P(Agreement, ClosestHits) {
   for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
     const Closest wanted(*reference, **k, rays, false);
     expect_agreement(*reference, rays, Closest(*planes, **k, rays, false), wanted, std::string((*k)->name) + " planes");
+    expect_agreement(*reference, rays, Closest(*bvh, **k, rays, false), wanted, std::string((*k)->name) + " bvh");
     expect_agreement(*reference, rays, Closest(*embree, **k, rays, false), wanted, std::string((*k)->name) + " embree");
     expect_agreement(*reference, rays, Closest(*embree, **k, rays, true), wanted,
                      std::string((*k)->name) + " embree packets");
@@ -110,7 +112,7 @@ TEST_P(Agreement, ClosestHits) {
 
 /// Between two points of surfaces; planes may leave out what bounds the scene only for such segments.
 TEST_P(Agreement, Occlusion) {
-  const auto reference = load(AccelKind::moller_trumbore), planes = load(AccelKind::planes),
+  const auto reference = load(AccelKind::moller_trumbore), planes = load(AccelKind::planes), bvh = load(AccelKind::bvh),
              embree = load(AccelKind::embree);
   const KernelEntry& kernels = *find_kernels("auto");
   // All from inside the room: its walls' backs scatter nothing, so no segment begins behind them.
@@ -149,7 +151,7 @@ TEST_P(Agreement, Occlusion) {
   std::uint32_t occluded = 0;
   for (std::uint32_t i = 0; i < count; ++i) occluded += wanted[i];
   EXPECT_GT(occluded, 0u);
-  for (const ViewedScene* viewed : {planes.get(), embree.get()}) {
+  for (const ViewedScene* viewed : {planes.get(), bvh.get(), embree.get()}) {
     for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
       (*k)->occluded_rays(viewed->view, rays, t_max.data(), got.data());
       std::uint32_t differing = 0;
@@ -167,6 +169,46 @@ TEST_P(Agreement, Occlusion) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::Values("hexagon_room", "soup"),
                          [](const auto& parameter) { return parameter.param; });
+
+/// What is tried one by one beside the hierarchy is what Embree's callbacks find, flipped and squeezed, with its side.
+TEST(BesideTheHierarchy, IsMetAsThroughEmbree) {
+  const std::string shapes[] = {"sphere", "disk", "cylinder"};
+  std::string xml = R"(<scene version="3.0.0"><sensor type="perspective"/><emitter type="constant"/>
+    <shape type="cube"><transform name="to_world"><scale value="3"/></transform></shape>)";
+  for (int i = 0; i < 12; ++i) {
+    const std::string& type = shapes[i % 3];
+    const std::string scale = type == "disk" ? R"(<scale x="0.7" y="0.7" z="2"/>)" : R"(<scale value="0.6"/>)";
+    xml += "<shape type=\"" + type + "\"><boolean name=\"flip_normals\" value=\"" + (i % 2 == 0 ? "true" : "false") +
+           "\"/><transform name=\"to_world\">" + scale + "<rotate x=\"1\" y=\"2\" z=\"0.5\" angle=\"" +
+           std::to_string(40 * i) + "\"/><translate x=\"" + std::to_string(i % 4 - 1.5) + "\" y=\"" +
+           std::to_string(i / 4 - 1) + "\" z=\"" + std::to_string(0.3 * i - 2) + "\"/></transform></shape>";
+  }
+  const TemporaryFolder folder;
+  const std::string file = folder.write("shapes.xml", xml + "</scene>");
+  const auto bvh = view_scene(file, AccelKind::bvh), embree = view_scene(file, AccelKind::embree);
+  ASSERT_NE(bvh, nullptr);
+  ASSERT_EQ(bvh->view.accel.analytic_count, 8u);
+  const double lower[3] = {-2.9, -2.9, -2.9}, upper[3] = {2.9, 2.9, 2.9};
+  const RandomRays rays(kRays, 13, lower, upper);
+  std::vector<std::uint32_t> met(bvh->scene.tables().tables.surfaces.size());
+  Answers<float> t_max(kRays);
+  for (std::uint32_t i = 0; i < kRays; ++i) t_max.data()[i] = 0.001f * static_cast<float>(i % 4000);
+  for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+    const Closest ours(*bvh, **k, rays, false), theirs(*embree, **k, rays, false);
+    Answers<std::uint8_t> hidden(kRays), hidden_from_them(kRays);
+    (*k)->occluded_rays(bvh->view, rays.arrays(), t_max.data(), hidden.data());
+    (*k)->occluded_rays(embree->view, rays.arrays(), t_max.data(), hidden_from_them.data());
+    std::uint32_t differing = 0;
+    for (std::uint32_t i = 0; i < kRays; ++i) {
+      const bool same = ours.primitive[i] == theirs.primitive[i] && hidden[i] == hidden_from_them[i] &&
+                        std::abs(ours.t[i] - theirs.t[i]) <= 1e-4f;
+      differing += same ? 0u : 1u;
+      if (ours.primitive[i] != kNone) ++met[ours.primitive[i] & 0x7fffffffu];
+    }
+    EXPECT_LE(differing, kRays / 5000) << (*k)->name;  // at silhouettes
+  }
+  for (const std::uint32_t times : met) EXPECT_GT(times, 100u) << "everything is met";
+}
 
 TEST(Planes, MergeTheRoomToThirteenPlanes) {
   const auto viewed = view_scene("hexagon_room", AccelKind::planes);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "accel/bvh/layout.h"
 #include "base/memory.h"
 #include "tables/accel_tables.h"
 #include "tables/scene_tables.h"
@@ -86,17 +87,25 @@ constexpr std::uint32_t planes_up_to(std::uint32_t lanes) { return lanes > 3 ? 1
 /// Beyond this many the planes are refused even if asked for: merging is quadratic.
 inline constexpr std::uint32_t kPlanesAtMost = 4096;
 
-/// One of the three, with all that its view borrows.
+/// Whether a hierarchy of triangles can hold the scene: without groups, and without shapes made of elements.
+bool bvh_knows(const SceneTables& scene);
+
+/// What stands beside its triangles is tried one by one; for more than so many Embree is chosen.
+inline constexpr std::size_t kBesideBvhAtMost = 32;
+
+/// One of them, with all that its view borrows.
 class Accel {
  public:
-  /// Analytic primitives and instances are for Embree alone.
-  Accel(const SceneTables& scene, AccelKind kind);
+  /// Analytic primitives and instances are for Embree, the former if bvh_knows() them for the hierarchy too. `threads`: that build a hierarchy, 0 for all of the machine;
+  /// Embree decides by itself.
+  Accel(const SceneTables& scene, AccelKind kind, int threads = 0);
   const AccelView& view() const { return view_; }
 
  private:
   PlaneTables planes_;
   Array<SphereRecord> spheres_;
   Array<float> triangle_extent_;
+  Bvh bvh_;
   std::unique_ptr<EmbreeScene> embree_;
   AccelView view_;
 };

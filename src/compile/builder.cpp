@@ -265,7 +265,7 @@ void Builder::summarise() {
   info.memory.other_tables = bytes_of(t.parameters) + bytes_of(t.lights) + bytes_of(t.primitive_lights) +
                              bytes_of(t.light_nodes) + bytes_of(t.light_leaves) + bytes_of(t.lights_around) +
                              bytes_of(t.filter);
-  info.memory.embree = embree_bytes(t);
+  info.memory.acceleration = acceleration_bytes(t);
   if (const auto& budget = MemoryScope::current()) info.memory.loading = budget->peak();
 }
 

@@ -26,12 +26,19 @@ NORRSKEN_INLINE Vec3f load_rays(const float* x, const float* y, const float* z, 
   return {load(x + i), load(y + i), load(z + i)};
 }
 
+RayFields fields_of(const RayArrays& rays) {
+  const float* const o[3] = {rays.ox, rays.oy, rays.oz};
+  const float* const d[3] = {rays.dx, rays.dy, rays.dz};
+  return {o, d};
+}
+
 void run_closest_rays(const SceneView& scene, bool coherent, const RayArrays& rays, float* t,
                       std::uint32_t* primitive_side) {
+  ClosestOfQueue hits(scene, coherent, fields_of(rays), rays.count);
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     const Mask active = first_lanes(rays.count - i);
-    const ClosestHit hit = intersect_closest_lanes(scene, coherent, load_rays(rays.ox, rays.oy, rays.oz, i),
-                                                   load_rays(rays.dx, rays.dy, rays.dz, i), active);
+    const ClosestHit hit =
+        hits.at(i, load_rays(rays.ox, rays.oy, rays.oz, i), load_rays(rays.dx, rays.dy, rays.dz, i), active);
     store(t + i, hit.t);
     store(reinterpret_cast<float*>(primitive_side) + i,
           select(hit.t < Float(kInfinity), hit.primitive_side, UInt(kNone)));
@@ -39,11 +46,11 @@ void run_closest_rays(const SceneView& scene, bool coherent, const RayArrays& ra
 }
 
 void run_occluded_rays(const SceneView& scene, const RayArrays& rays, const float* t_max, std::uint8_t* occluded) {
+  OccludedOfQueue hidden(scene, fields_of(rays), t_max, rays.count);
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     const Mask active = first_lanes(rays.count - i);
-    const std::uint32_t lanes =
-        to_bits(occluded_lanes(scene, load_rays(rays.ox, rays.oy, rays.oz, i), load_rays(rays.dx, rays.dy, rays.dz, i),
-                               load(t_max + i), active));
+    const std::uint32_t lanes = to_bits(hidden.at(i, load_rays(rays.ox, rays.oy, rays.oz, i),
+                                                  load_rays(rays.dx, rays.dy, rays.dz, i), load(t_max + i), active));
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(kLanes) && i + k < rays.count; ++k) {
       occluded[i + k] = static_cast<std::uint8_t>((lanes >> k) & 1u);
     }

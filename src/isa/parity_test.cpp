@@ -282,7 +282,8 @@ TEST(PlainScenes, AreShadedLikeAnyOtherWhateverTheModel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryAccelerator, Parity,
-                         testing::Values(AccelKind::planes, AccelKind::moller_trumbore, AccelKind::embree),
+                         testing::Values(AccelKind::planes, AccelKind::moller_trumbore, AccelKind::bvh,
+                                         AccelKind::embree),
                          [](const auto& parameter) { return std::string(accel_name(parameter.param)); });
 
 TEST(SamplerParity, SameBitsInEveryWidth) {

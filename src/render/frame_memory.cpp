@@ -29,14 +29,15 @@ std::optional<MemoryReservation> reserve_frame(const LoadedScene& scene, const F
   return frame;
 }
 
-std::unique_ptr<const Accel> build_accel(const LoadedScene& scene, AccelKind kind, Diagnostics& diagnostics) {
+std::unique_ptr<const Accel> build_accel(const LoadedScene& scene, AccelKind kind, int threads,
+                                         Diagnostics& diagnostics) {
   const MemoryScope scope(scene.memory);
   SourceLocation whole_file;
   whole_file.file = scene.file;
   std::unique_ptr<const Accel> accel;
   try {
     within_memory(whole_file, "the scene's acceleration structure", diagnostics,
-                  [&] { accel = std::make_unique<const Accel>(scene.tables, kind); });
+                  [&] { accel = std::make_unique<const Accel>(scene.tables, kind, threads); });
   } catch (const LoadingStopped&) {
     // It has been said why.
   }

@@ -14,6 +14,7 @@ std::optional<MemoryReservation> reserve_frame(const LoadedScene& scene, const F
                                                const SceneLayers& layers, int threads, Diagnostics& diagnostics);
 
 /// The acceleration structure, in the scene's budget. Null after a complaint.
-std::unique_ptr<const Accel> build_accel(const LoadedScene& scene, AccelKind kind, Diagnostics& diagnostics);
+std::unique_ptr<const Accel> build_accel(const LoadedScene& scene, AccelKind kind, int threads,
+                                         Diagnostics& diagnostics);
 
 }  // namespace norrsken

@@ -8,6 +8,7 @@
 
 #include "compile/compile.h"
 #include "isa/entry.h"
+#include "render/crew.h"
 #include "render/frame_memory.h"
 #include "render/scene_view.h"
 #include "render/wave_arena.h"
@@ -150,7 +151,7 @@ std::optional<PathTrace> trace_path(const Scene& scene, const RenderOptions& opt
   const SceneTables& tables = scene.tables().tables;
   const KernelEntry* kernels = choose_kernels(options.isa, diagnostics);
   const AccelKind accel_kind =
-      choose_accel(options.accelerator, tables, kernels != nullptr ? kernels->lanes : 1, diagnostics);
+      choose_accel(options.accelerator, tables, kernels != nullptr ? kernels->lanes : 1, false, diagnostics);
   if (x < 0 || y < 0 || x >= tables.film.width || y >= tables.film.height) {
     diagnostics.error({}, fmt::format("there is no pixel {}, {}", x, y),
                       fmt::format("0, 0 to {}, {}", tables.film.width - 1, tables.film.height - 1));
@@ -161,7 +162,7 @@ std::optional<PathTrace> trace_path(const Scene& scene, const RenderOptions& opt
   }
   if (diagnostics.has_errors()) return std::nullopt;
 
-  const auto accel = build_accel(scene.tables(), accel_kind, diagnostics);
+  const auto accel = build_accel(scene.tables(), accel_kind, crew_size(options.threads), diagnostics);
   if (!accel) return std::nullopt;
   SceneView view = make_scene_view(tables, accel->view());
   view.sampler.seed += options.seed;

@@ -74,10 +74,9 @@ SampleRange sample_range(const SceneTables& tables, const RenderOptions& options
 }
 
 /// Planes hold polygons, which do not know the triangles that they were merged from.
-std::string accelerator_for(const Scene& scene, const RenderOptions& options) {
-  const bool counts_triangles = std::ranges::any_of(
-      scene.tables().layers.features, [](const FeatureLayer& layer) { return layer.feature == kFeaturePrimitive; });
-  return counts_triangles && options.accelerator == "auto" ? "embree" : options.accelerator;
+bool counts_triangles(const Scene& scene) {
+  return std::ranges::any_of(scene.tables().layers.features,
+                             [](const FeatureLayer& layer) { return layer.feature == kFeaturePrimitive; });
 }
 
 /// Scenes that name layers get them of as many samples as the image, others of the first few of all.
@@ -299,8 +298,8 @@ std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& 
   if (options.adaptive && scene.tables().tables.integrator.from_lights) {
     diagnostics.error({}, "adaptive sampling with paths that begin at the lights", "another integrator than ptracer");
   }
-  const AccelKind accel = choose_accel(accelerator_for(scene, options), scene.tables().tables,
-                                       kernels != nullptr ? kernels->lanes : 1, diagnostics);
+  const AccelKind accel = choose_accel(options.accelerator, scene.tables().tables,
+                                       kernels != nullptr ? kernels->lanes : 1, counts_triangles(scene), diagnostics);
   if (options.samples && options.samples->first >= options.samples->end) {
     diagnostics.error({}, fmt::format("samples {} to {}", options.samples->first, options.samples->end),
                       "a first sample, and a greater one behind the last");
@@ -312,7 +311,7 @@ std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& 
   if (diagnostics.has_errors()) return nullptr;
   auto frame = reserve_frame(scene.tables(), film_settings(scene.tables().tables), layers(scene, options),
                              crew_size(options.threads), diagnostics);
-  auto built = frame ? build_accel(scene.tables(), accel, diagnostics) : nullptr;
+  auto built = frame ? build_accel(scene.tables(), accel, crew_size(options.threads), diagnostics) : nullptr;
   if (!built) return nullptr;
   auto session = std::make_unique<RenderSession>(scene, options, *kernels, std::move(*frame), std::move(built));
   session->resume(diagnostics);

@@ -1,9 +1,12 @@
 #include "render/scene_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <map>
+#include <numeric>
+#include <vector>
 
 namespace norrsken {
 namespace {
@@ -17,8 +20,10 @@ constexpr std::uint32_t kMostListedChoices = 3;
 constexpr struct {
   const char* name;
   AccelKind kind;
-} kAccels[] = {
-    {"planes", AccelKind::planes}, {"moller_trumbore", AccelKind::moller_trumbore}, {"embree", AccelKind::embree}};
+} kAccels[] = {{"planes", AccelKind::planes},
+               {"moller_trumbore", AccelKind::moller_trumbore},
+               {"bvh", AccelKind::bvh},
+               {"embree", AccelKind::embree}};
 
 /// Lanes that gather nothing read the first element, which scenes without a surface have none of.
 template <class T>
@@ -27,55 +32,84 @@ const T* data_or_one(const Array<T>& values) {
   return values.empty() ? &one : values.data();
 }
 
-/// Planes widen their polygons by what rounding does to coordinates of the scene: too much for a shape that is far from the
-/// origin and small. At a hundred times its size a triangle has grown by 0.1 % of its area, at 3000 times by 2 %.
+/// Planes widen their polygons by what rounding does to coordinates of the scene: too much for a mesh, or a part of one that
+/// shares no vertex with the rest, that is far from the origin and small. At a hundred times its size a triangle has grown by
+/// 0.1 % of its area, at 3000 times by 2 %.
 bool is_too_far_for_planes(const SceneTables& tables) {
-  constexpr double kFarthest = 100;  // of a shape's own size
-  for (const ShapeRecord& shape : tables.shapes) {
-    if (shape.first_primitive >= tables.triangle_count()) continue;
-    double lower[3], upper[3], size2 = 0, farthest = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      lower[axis] = std::numeric_limits<double>::infinity(), upper[axis] = -lower[axis];
-      for (std::size_t i = 0; i < std::size_t{3} * shape.primitive_count; ++i) {
-        const std::size_t vertex = tables.triangle_vertices[std::size_t{3} * shape.first_primitive + i];
-        const double at = tables.positions[3 * vertex + axis];
-        lower[axis] = std::min(lower[axis], at), upper[axis] = std::max(upper[axis], at);
-        farthest = std::max(farthest, std::abs(at));
-      }
-      size2 += (upper[axis] - lower[axis]) * (upper[axis] - lower[axis]);
+  constexpr double kFarthest = 100;  // of a part's own size
+  struct Box {
+    std::array<double, 3> lower, upper;
+  };
+  std::vector<std::uint32_t> parent(tables.positions.size() / 3);
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto part_of = [&](std::uint32_t vertex) {
+    while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
+    return vertex;
+  };
+  const auto& corners = tables.triangle_vertices;
+  for (std::size_t i = 0; i < corners.size(); ++i) parent[part_of(corners[i])] = part_of(corners[i - i % 3]);
+  std::map<std::uint32_t, Box> boxes;
+  for (const std::uint32_t vertex : corners) {
+    const float* at = &tables.positions[3 * std::size_t{vertex}];
+    const std::array<double, 3> point{at[0], at[1], at[2]};
+    Box& box = boxes.try_emplace(part_of(vertex), Box{point, point}).first->second;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = std::min(box.lower[axis], point[axis]);
+      box.upper[axis] = std::max(box.upper[axis], point[axis]);
     }
-    if (farthest > kFarthest * std::sqrt(size2)) return true;
   }
-  return false;
+  return std::ranges::any_of(boxes, [](const auto& part) {
+    const auto& [lower, upper] = part.second;
+    double size2 = 0, farthest = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      size2 += (upper[axis] - lower[axis]) * (upper[axis] - lower[axis]);
+      farthest = std::max({farthest, std::abs(lower[axis]), std::abs(upper[axis])});
+    }
+    return size2 > 0 && farthest > kFarthest * std::sqrt(size2);
+  });
 }
 
 }  // namespace
 
-AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes,
+AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes, bool counts_triangles,
                        Diagnostics& diagnostics) {
   const std::size_t primitives = tables.surfaces.size();
-  const bool embree_only = !tables.analytics.empty() || tables.group_count > 0;
-  const bool suits_planes = primitives <= planes_up_to(lanes) && !embree_only && !is_too_far_for_planes(tables);
-  const AccelKind automatic = suits_planes ? AccelKind::planes : AccelKind::embree;
+  const bool polygons_and_spheres = tables.analytics.empty() && tables.group_count == 0;
+  const std::size_t beside_triangles = primitives - tables.triangle_count();
+  AccelKind automatic = AccelKind::embree;
+  if (polygons_and_spheres && primitives <= planes_up_to(lanes) && !counts_triangles &&
+      !is_too_far_for_planes(tables)) {
+    automatic = AccelKind::planes;
+  } else if (bvh_knows(tables) && beside_triangles <= kBesideBvhAtMost) {
+    automatic = AccelKind::bvh;
+  }
   if (name == "auto") return automatic;
   for (const auto& accel : kAccels) {
     if (name != accel.name) continue;
-    if (accel.kind != AccelKind::embree && embree_only) {
+    if (accel.kind == AccelKind::bvh && !bvh_knows(tables)) {
+      diagnostics.error(
+          {},
+          std::string("accelerator 'bvh' knows triangles, spheres, disks and cylinders only, and this scene has ") +
+              (tables.group_count == 0 ? "curves or grids" : "groups"),
+          "auto or embree");
+      return automatic;
+    }
+    if ((accel.kind == AccelKind::planes || accel.kind == AccelKind::moller_trumbore) && !polygons_and_spheres) {
       diagnostics.error({},
                         "accelerator '" + name + "' knows triangles and spheres only, and this scene has " +
                             (tables.analytics.empty() ? "groups" : "other shapes"),
-                        "auto or embree");
+                        bvh_knows(tables) ? "auto, bvh or embree" : "auto or embree");
       return automatic;
     }
     if (accel.kind == AccelKind::planes && primitives > kPlanesAtMost) {
       diagnostics.error(
           {},
           "accelerator 'planes' is for small scenes, and this one has " + std::to_string(primitives) + " primitives",
-          "at most " + std::to_string(kPlanesAtMost) + " primitives, or embree");
+          "at most " + std::to_string(kPlanesAtMost) + " primitives, or bvh or embree");
     }
     return accel.kind;
   }
-  diagnostics.error({}, "unknown accelerator '" + name + "'", "auto, embree, moller_trumbore, planes");
+  diagnostics.error({}, "unknown accelerator '" + name + "'", "auto, bvh, embree, moller_trumbore, planes");
   return automatic;
 }
 

@@ -15,10 +15,10 @@ namespace norrsken {
 /// The kernels of an instruction set by name, as usable_isas() has it, or "auto"; complains about others.
 const KernelEntry* choose_kernels(const std::string& isa, Diagnostics& diagnostics);
 
-/// The accelerator by name ("auto", "planes", "moller_trumbore", "embree"); "auto" goes by the number of primitives and
-/// lanes. Complains about unknown names, planes for a large scene, and anything but Embree for shapes with a formula or
-/// groups of shapes, and falls back to auto's choice.
-AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes,
+/// The accelerator by name ("auto", "planes", "moller_trumbore", "bvh", "embree"); "auto" goes by the number of primitives
+/// and lanes, and takes none that knows only polygons if `counts_triangles`. Complains about unknown names, planes for a
+/// large scene, and about what does not know the scene's shapes, and falls back to auto's choice.
+AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes, bool counts_triangles,
                        Diagnostics& diagnostics);
 const char* accel_name(AccelKind kind);
 

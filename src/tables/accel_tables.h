@@ -1,12 +1,16 @@
-// What kernels intersect: planes with convex polygons for small scenes, plain triangles as the reference, or Embree.
+// What kernels intersect: planes with convex polygons for small scenes, plain triangles as the reference, a hierarchy of
+// bounding volumes, or Embree.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "tables/bvh_tables.h"
+#include "tables/scene_tables.h"
+
 namespace norrsken {
 
-enum class AccelKind : std::uint32_t { planes, moller_trumbore, embree };
+enum class AccelKind : std::uint32_t { planes, moller_trumbore, bvh, embree };
 
 /// A plane n.p = c with |n_k| = 1 for its axis k, so that t = (c - n.o) / (n.d) takes two products for each dot
 /// product. Source: Wald, "Realtime Ray Tracing and Interactive Global Illumination", PhD thesis 2004, section 7.1.1.
@@ -63,7 +67,11 @@ struct AccelView {
   std::uint32_t sphere_count = 0;
   PlaneSet all, occluders, emitters;
   std::uint32_t emitter_sphere_count = 0;  ///< they come first among the spheres
-  void* embree_scene = nullptr;            ///< RTCScene
+  BvhView bvh;                             ///< of the triangles
+  /// What stands beside it besides the spheres: the primitives from first_analytic on.
+  const AnalyticRecord* analytics = nullptr;
+  std::uint32_t analytic_count = 0, first_analytic = kNone;
+  void* embree_scene = nullptr;  ///< RTCScene
   /// Geometries by their ID, first the world's; those of instance i begin at instance_geometries[i].
   const EmbreeGeometry* embree_geometries = nullptr;
   const std::uint32_t* instance_geometries = nullptr;

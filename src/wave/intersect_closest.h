@@ -63,12 +63,13 @@ NORRSKEN_INLINE void push_by_kind(const SceneView& scene, const Hit& hit, std::u
 inline void intersect_closest(const SceneView& scene, std::uint32_t hit_number, std::uint32_t wanted_kinds,
                               const Queue& rays, WaveMemory& memory) {
   const bool from_camera = hit_number == 1;
+  ClosestOfQueue hits(scene, from_camera, rays);
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     Mask active = first_lanes(rays.count - i);
     Hit hit;
     hit.ray = load_ray(scene, rays, i);
     active = keep_sound(is_sound(hit.ray), hit.ray.slot, memory.slots, active);
-    const ClosestHit closest = intersect_closest_lanes(scene, from_camera, hit.ray.origin, hit.ray.direction, active);
+    const ClosestHit closest = hits.at(i, hit.ray.origin, hit.ray.direction, active);
     Mask missed = !(closest.t < Float(kInfinity));
     if (from_camera) missed |= !(closest.t <= distance_to_far_plane(scene.camera, hit.ray.direction));
     missed &= active;
@@ -91,6 +92,7 @@ inline void intersect_closest(const SceneView& scene, std::uint32_t hit_number, 
 /// The same for a path's last ray, of which only emission counts: rays that do not point at a light are not traced.
 /// They start on surfaces, so what cannot come between two points of the scene need not be looked at.
 inline void intersect_emitters(const SceneView& scene, const Queue& rays, WaveMemory& memory) {
+  ClosestOfQueue hits(scene, false, rays);
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     Mask active = first_lanes(rays.count - i);
     Hit hit;
@@ -104,7 +106,7 @@ inline void intersect_emitters(const SceneView& scene, const Queue& rays, WaveMe
       if (none(active)) continue;
       active &= !occluded_in_planes(scene.accel, hit.ray.origin, hit.ray.direction, closest.t);
     } else {
-      closest = intersect_closest_lanes(scene, false, hit.ray.origin, hit.ray.direction, active);
+      closest = hits.at(i, hit.ray.origin, hit.ray.direction, active);
       const Mask missed = active & !(closest.t < Float(kInfinity));
       if (scene.environment != kNone && any(missed)) push(scene, memory.misses, hit.ray, missed);
       active &= !missed;

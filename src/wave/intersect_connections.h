@@ -25,8 +25,9 @@ NORRSKEN_INLINE void push(Queue& q, const Connection& connection, Mask m) {
 
 /// Unlike a light, the camera need not be where the scene is: walls that cannot come between two points of the scene
 /// (docs/pipeline.md) can hide it from the camera.
-NORRSKEN_INLINE Mask hidden_from_camera(const SceneView& scene, const ShadowRay& ray, Mask active) {
-  if (scene.accel.kind != AccelKind::planes) return occluded_lanes(scene, ray.origin, ray.direction, ray.t_max, active);
+NORRSKEN_INLINE Mask hidden_from_camera(const SceneView& scene, OccludedOfQueue& occluded, std::uint32_t i,
+                                        const ShadowRay& ray, Mask active) {
+  if (scene.accel.kind != AccelKind::planes) return occluded.at(i, ray.origin, ray.direction, ray.t_max, active);
   return active & (intersect_closest_lanes(scene, false, ray.origin, ray.direction, active).t < ray.t_max);
 }
 
@@ -53,13 +54,14 @@ inline Mask hidden_by_others_than_emitters(const SceneView& scene, Vec3f origin,
 
 inline void intersect_connections(const SceneView& scene, const Queue& connections, Queue& splats) {
   const bool look_through = scene.integrator.hide_emitters && scene.any_area_light;
+  OccludedOfQueue occluded(scene, connections);
   for (std::uint32_t i = 0; i < connections.count; i += kLanes) {
     const Mask active = first_lanes(connections.count - i);
     const Connection connection = load_connection(connections, i);
     const ShadowRay& ray = connection.ray;
     const Mask hidden = look_through ? hidden_by_others_than_emitters(scene, copied(ray.origin), copied(ray.direction),
                                                                       ray.t_max, active)
-                                     : hidden_from_camera(scene, ray, active);
+                                     : hidden_from_camera(scene, occluded, i, ray, active);
     const Mask visible = active & !hidden;
     if (none(visible)) continue;
     const Compaction c = make_compaction(visible);

@@ -7,11 +7,12 @@
 namespace norrsken::NORRSKEN_ISA {
 
 inline void intersect_shadow(const SceneView& scene, const Queue& shadow_rays, Queue& slots) {
+  OccludedOfQueue occluded(scene, shadow_rays);
   for (std::uint32_t i = 0; i < shadow_rays.count; i += kLanes) {
     const ShadowRay ray = load_shadow_ray(shadow_rays, i);
     const Mask active =
         keep_sound(is_ray(ray.origin, ray.direction), ray.slot, slots, first_lanes(shadow_rays.count - i));
-    const Mask visible = active & !occluded_lanes(scene, ray.origin, ray.direction, ray.t_max, active);
+    const Mask visible = active & !occluded.at(i, ray.origin, ray.direction, ray.t_max, active);
     if (any(visible)) add_radiance(slots, ray.slot, ray.contribution, visible);
   }
 }

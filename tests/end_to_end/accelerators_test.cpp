@@ -127,7 +127,7 @@ TEST_P(Accelerators, ShowTheSame) {
   };
   const Image wanted = render("moller_trumbore");
   bool any = false;
-  for (const char* accelerator : {"planes", "embree"}) {
+  for (const char* accelerator : {"planes", "bvh", "embree"}) {
     const Image got = render(accelerator);
     ASSERT_EQ(got.channels.size(), wanted.channels.size());
     for (std::size_t c = 0; c < wanted.channels.size(); ++c) {

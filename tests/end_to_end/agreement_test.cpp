@@ -58,7 +58,7 @@ TEST_P(Accelerator, AgreesWithMollerTrumbore) {
                     {.accelerator = "moller_trumbore"});
 }
 
-INSTANTIATE_TEST_SUITE_P(, Accelerator, ::testing::Values("planes", "embree"), kParamName);
+INSTANTIATE_TEST_SUITE_P(, Accelerator, ::testing::Values("planes", "bvh", "embree"), kParamName);
 
 class Isa : public ::testing::TestWithParam<const char*> {};
 

@@ -132,7 +132,7 @@ TEST_P(Mirror, ShowsExactlyWhatItFaces) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, Mirror, ::testing::Values("planes", "moller_trumbore", "embree"), kParamName);
+INSTANTIATE_TEST_SUITE_P(, Mirror, ::testing::Values("planes", "moller_trumbore", "bvh", "embree"), kParamName);
 
 }  // namespace
 }  // namespace norrsken::end_to_end

@@ -49,7 +49,7 @@ TEST_F(EnvironmentAlone, ShowsItself) {
     Diagnostics warnings;
     const auto scene = Scene::load(path("sky.xml"), {}, warnings);
     ASSERT_TRUE(scene);
-    for (const char* accel : {"auto", "planes", "embree", "moller_trumbore"}) {
+    for (const char* accel : {"auto", "planes", "bvh", "embree", "moller_trumbore"}) {
       const auto picture =
           picture_of(render_image(*scene, {.samples_per_pixel = 4, .threads = kThreads, .accelerator = accel}));
       for (const auto& pixel : picture.pixels) EXPECT_EQ(pixel[1], 2) << integrator << " " << accel;

@@ -29,7 +29,7 @@ TEST_F(MeshFiles, ConcavePolygonsShowTheirAreaAndNothingElse) {
     write("a.obj", std::string("v -1 -1 0\nv 2 -1 0\nv 2 0 0\nv 0 0 0\nv 0 2 0\nv -1 2 0\nf ") + face + "\n");
     const Scene scene = load_elements(R"(<integrator type="path"/>)" + camera(kSize) + R"(<shape type="obj">)" +
                                       text("filename", "a.obj") + kShines + "</shape>");
-    for (const char* accelerator : {"planes", "moller_trumbore", "embree"}) {
+    for (const char* accelerator : {"planes", "moller_trumbore", "bvh", "embree"}) {
       const auto picture = picture_of(render_image(scene, {.samples_per_pixel = 16, .accelerator = accelerator}));
       double sum = 0;
       for (const auto& pixel : picture.pixels) sum += pixel[1];
@@ -42,7 +42,7 @@ TEST_F(MeshFiles, WhatHasNothingToDrawLeavesTheSky) {
   write("line.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n");
   const std::string sky = R"(<emitter type="constant"><float name="radiance" value="2"/></emitter>)";
   for (const std::string& inside : {std::string(), kShines}) {
-    for (const char* accelerator : {"planes", "moller_trumbore", "embree"}) {
+    for (const char* accelerator : {"planes", "moller_trumbore", "bvh", "embree"}) {
       const auto picture =
           picture_with_warnings(R"(<integrator type="path"/>)" + camera(kSize) + sky + R"(<shape type="obj">)" +
                                     text("filename", "line.obj") + inside + "</shape>",

@@ -80,6 +80,7 @@ TEST_P(Repeatability, SeedsDiffer) {
 INSTANTIATE_TEST_SUITE_P(, Repeatability,
                          ::testing::Values(Case{"sobol", "sobol", "area", "auto"},
                                            Case{"independent", "independent", "area", "auto"},
+                                           Case{"bvh", "sobol", "point", "bvh"},
                                            Case{"embree", "sobol", "point", "embree"}),
                          kParamName);
 

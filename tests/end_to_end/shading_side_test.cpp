@@ -53,7 +53,7 @@ double shown(double reflectance, double cosine) { return reflectance / std::numb
 TEST_F(ShadingSide, TheBackIsSeenWhereTheNormalTurnsAway) {
   const double wanted = shown(kBack, -dot(kNormal, kToLight));
   ASSERT_GT(wanted, 0.05);
-  for (const char* accelerator : {"planes", "moller_trumbore", "embree"}) {
+  for (const char* accelerator : {"planes", "moller_trumbore", "bvh", "embree"}) {
     EXPECT_NEAR(mean(kTwosided, kAboveThePlane, light_from(kToLight), {.accelerator = accelerator}), wanted,
                 1e-4 * wanted)
         << accelerator;

@@ -27,15 +27,16 @@ TEST_P(Trap, AllAcceleratorsAgree) {
   };
   const double reference = mean("moller_trumbore");
   EXPECT_GT(reference, 0.01);
-  // The same random numbers in all three: only rays along an edge may differ.
+  // The same random numbers in all: only rays along an edge may differ.
   EXPECT_NEAR(mean("planes"), reference, 1e-3 * reference);
+  EXPECT_NEAR(mean("bvh"), reference, 1e-3 * reference);
   EXPECT_NEAR(mean("embree"), reference, 1e-3 * reference);
 }
 
 /// The large tilted rectangle at a thousandth of its size has no rounding to speak of.
 TEST(LargeTilted, LooksLikeTheSmallOne) {
   const double wanted = 0.1509;
-  for (const char* accelerator : {"planes", "moller_trumbore", "embree"}) {
+  for (const char* accelerator : {"planes", "moller_trumbore", "bvh", "embree"}) {
     const Scene scene = load_test_scene("traps/large_tilted.xml");
     EXPECT_NEAR(mean_of(render_image(scene, {.threads = kThreads, .accelerator = accelerator})), wanted, 1e-3 * wanted)
         << accelerator;

@@ -154,7 +154,7 @@ norrsken_mutant(shadows_from_behind_the_light accel/planes.h
   "(c.t > Float(0.0f)) & (c.t < t_max)" "c.t > Float(0.0f)"
   IN rendering BY "OracleBox.Lamp*")
 norrsken_mutant(no_shadows wave/intersect_shadow.h
-  "active & !occluded_lanes(scene, ray.origin, ray.direction, ray.t_max, active)" "active"
+  "active & !occluded.at(i, ray.origin, ray.direction, ray.t_max, active)" "active"
   IN rendering BY "OracleBox.Lamp*")
 norrsken_mutant(normals_of_instances_turned_like_vectors wave/placed_surface.h
   "from.transposed(s.shading)" "to.vector(s.shading)"
