@@ -210,6 +210,42 @@ TEST(BesideTheHierarchy, IsMetAsThroughEmbree) {
   for (const std::uint32_t times : met) EXPECT_GT(times, 100u) << "everything is met";
 }
 
+/// So many triangles with so many spheres.
+SceneTables tables_of(std::uint32_t triangles, std::uint32_t spheres) {
+  SceneTables tables;
+  tables.triangle_vertices.resize(std::size_t{3} * triangles);
+  tables.surfaces.resize(triangles + spheres);
+  return tables;
+}
+
+TEST(ChooseAccel, GoesByWhatTheSceneHolds) {
+  Diagnostics diagnostics;
+  const auto automatic = [&](const SceneTables& tables, bool counts_triangles = false) {
+    return choose_accel("auto", tables, 16, counts_triangles, diagnostics);
+  };
+  EXPECT_EQ(automatic(tables_of(100, 5)), AccelKind::planes);
+  EXPECT_EQ(automatic(tables_of(100, 5), true), AccelKind::bvh);
+  EXPECT_EQ(automatic(tables_of(1000, 32)), AccelKind::bvh);
+  EXPECT_EQ(automatic(tables_of(1000, 33)), AccelKind::embree);
+  SceneTables other = tables_of(1000, 0);
+  other.analytics.resize(1);
+  other.analytics[0].kind = AnalyticKind::disk;
+  EXPECT_EQ(automatic(other), AccelKind::bvh);
+  other.analytics[0].kind = AnalyticKind::bsplinecurve;
+  EXPECT_EQ(automatic(other), AccelKind::embree);
+  EXPECT_FALSE(diagnostics.has_errors());
+  EXPECT_EQ(choose_accel("bvh", other, 16, false, diagnostics), AccelKind::embree);
+  SceneTables grouped = tables_of(1000, 0);
+  grouped.group_count = 1;
+  EXPECT_EQ(automatic(grouped), AccelKind::embree);
+  EXPECT_EQ(choose_accel("bvh", grouped, 16, false, diagnostics), AccelKind::embree);
+  ASSERT_EQ(diagnostics.all().size(), 2u);
+  EXPECT_EQ(diagnostics.all()[0].message,
+            "accelerator 'bvh' knows triangles, spheres, disks and cylinders only, and this scene has curves or grids");
+  EXPECT_EQ(diagnostics.all()[1].message,
+            "accelerator 'bvh' knows triangles, spheres, disks and cylinders only, and this scene has groups");
+}
+
 TEST(Planes, MergeTheRoomToThirteenPlanes) {
   const auto viewed = view_scene("hexagon_room", AccelKind::planes);
   const PlaneTables tables = build_planes(viewed->scene.tables().tables);
