@@ -117,7 +117,7 @@ TEST(BsdfHost, ColoursAreNumbersWhereTexturesMayStand) {
     EXPECT_EQ(parameters("<rgb" + named + "\"0 0 1.2\"/>"), wanted) << name;
   }
   EXPECT_THAT(compile_bsdf(R"(<bsdf type="principled"><rgb name="metallic" value="1 2 3"/></bsdf>)").messages(),
-              ElementsAre("error: 'metallic' is 2 in the mean [a number from 0 to 1]"));
+              ElementsAre("warning: 'metallic' is 2, which is taken for 1 [a number from 0 to 1]"));
   EXPECT_THAT(compile_bsdf(R"(<bsdf type="bumpmap"><rgb name="scale" value="1"/></bsdf>)").messages(),
               ::testing::Contains("error: 'scale' is an rgb [float]"));
 }

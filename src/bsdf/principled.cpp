@@ -14,6 +14,7 @@
 //   clearcoat, clearcoat_gloss  float or texture, 0 to 1 (default 0): a second specular lobe, and how sharp it is
 //   diffuse_reflectance_sampling_rate, main_specular_sampling_rate, clearcoat_sampling_rate
 //                    float from 0 (default 1): how often each lobe is sampled, in proportion
+// What is out of these ranges is clamped, with a warning.
 // Stored: base_color (colour); roughness, anisotropic, metallic, spec_trans, spec_tint, sheen, sheen_tint, flatness,
 // clearcoat, clearcoat_gloss (scalars); relative index of refraction, 1 for the back, the three rates.
 // Side: the front; the back too, with the inverse index, where spec_trans lets light through.
@@ -30,7 +31,7 @@ constexpr double kMaxRate = 1e6, kMaxIndex = 1e4;
 
 double read_eta(Parameters& p, bool transmits) {
   const double eta = p.number("eta", 1.5, 0, kMaxIndex, Ends::open_below);
-  double specular = p.mean("specular", 0.5, 0, 1);
+  double specular = p.mean_clamped("specular", 0.5, 0, 1);
   if (p.has("eta")) {
     if (p.has("specular")) p.error("specular", "'specular' is given next to 'eta'", "eta or specular");
     // What is not there cannot be refracted at.
@@ -44,13 +45,13 @@ double read_eta(Parameters& p, bool transmits) {
 
 Material compile_bsdf_principled(Parameters& p, Builder& builder) {
   const ColorParameter base_color = builder.color(p, "base_color", glm::dvec3(0.5), 0, 1);
-  const ScalarParameter roughness = builder.scalar(p, "roughness", 0.5, 0, 1);
+  const ScalarParameter roughness = builder.share(p, "roughness", 0.5);
   ParameterBlock block;
   block.add(base_color).add(roughness);
   bool transmits = false;
   for (const std::string_view name : {"anisotropic", "metallic", "spec_trans", "spec_tint", "sheen", "sheen_tint",
                                       "flatness", "clearcoat", "clearcoat_gloss"}) {
-    const ScalarParameter value = builder.scalar(p, name, 0, 0, 1);
+    const ScalarParameter value = builder.share(p, name, 0);
     const bool matters = value.value != 0 || value.texture != 0;
     if (matters && name == "anisotropic") builder.need_uv();
     if (matters && name == "spec_trans") transmits = true;

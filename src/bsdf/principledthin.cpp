@@ -13,6 +13,7 @@
 //   specular_reflectance_sampling_rate, specular_transmittance_sampling_rate, diffuse_reflectance_sampling_rate,
 //   diffuse_transmittance_sampling_rate
 //                    float from 0 (default 1): how often each lobe is sampled, in proportion
+// What is out of these ranges is clamped, with a warning.
 // Stored: base_color (colour); roughness, anisotropic, spec_trans, spec_tint, sheen, sheen_tint, flatness, eta, diff_trans
 // (scalars); the four rates in the order above.
 // Side: both, alike.
@@ -25,13 +26,13 @@ namespace norrsken {
 Material compile_bsdf_principledthin(Parameters& p, Builder& builder) {
   constexpr double kMaxRate = 1e6, kMaxIndex = 1e4;
   const ColorParameter base_color = builder.color(p, "base_color", glm::dvec3(0.5), 0, 1);
-  const ScalarParameter roughness = builder.scalar(p, "roughness", 0.5, 0, 1);
-  const ScalarParameter anisotropic = builder.scalar(p, "anisotropic", 0, 0, 1);
+  const ScalarParameter roughness = builder.share(p, "roughness", 0.5);
+  const ScalarParameter anisotropic = builder.share(p, "anisotropic", 0);
   if (anisotropic.value != 0 || anisotropic.texture != 0) builder.need_uv();
   ParameterBlock block;
   block.add(base_color).add(roughness).add(anisotropic);
   for (const char* name : {"spec_trans", "spec_tint", "sheen", "sheen_tint", "flatness"}) {
-    block.add(builder.scalar(p, name, 0, 0, 1));
+    block.add(builder.share(p, name, 0));
   }
   block.add(builder.scalar(p, "eta", 1.5, 0, kMaxIndex, Ends::open_below))
       .add(builder.scalar(p, "diff_trans", 0, 0, 2));

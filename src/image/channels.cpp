@@ -81,7 +81,7 @@ ColorChannels color_channels(const Names& names) {
   }
   constexpr std::string_view kGreys[] = {"R", "Y", "V", "L", "A", "grey", "gray", "luminance"};
   const bool is_grey = std::ranges::any_of(
-      kGreys, [&](std::string_view grey) { return equal_ignoring_case(last_name(names[0]), grey); });
+      kGreys, [&](std::string_view known) { return equal_ignoring_case(last_name(names[0]), known); });
   const bool is_alone = names.size() == 1 || equal_ignoring_case(last_name(names[1]), "A");
   return {{0},
           false,

@@ -56,7 +56,8 @@ inline const Row kIndexOutside{"ext_ior", "float", "1.2", "-1", "a number above 
 
 inline Row color(const char* name) { return {name, "rgb", "0.1, 0.2, 0.3", "0.5, 2, 0", kComponents}; }
 inline Row light(const char* name) { return {name, "rgb", "1, 2, 3", "1, -2, 3", kLight}; }
-inline Row share(const char* name) { return {name, "float", "0.25", "1.5", kShare}; }
+/// Beyond 0 and 1 it is clamped.
+inline Row share(const char* name) { return {name, "float", "0.25"}; }
 inline Row rate(const char* name) { return {name, "float", "2", "-1", "a number from 0 to 1e+06"}; }
 inline Row file(const char* asset) { return {"filename", "string", asset, "missing.file"}; }
 
@@ -125,8 +126,8 @@ inline const Plugin kPlugins[] = {
                     rate("specular_reflectance_sampling_rate"),
                     rate("specular_transmittance_sampling_rate"),
                     rate("diffuse_transmittance_sampling_rate")})},
-    {"bsdf", "mask", NORRSKEN_DIFFUSE, {{"opacity", "float", "0.25"}}},
-    {"bsdf", "blendbsdf", NORRSKEN_DIFFUSE NORRSKEN_DIFFUSE, {{"weight", "float", "0.25"}}, {"weight"}},
+    {"bsdf", "mask", NORRSKEN_DIFFUSE, {share("opacity")}},
+    {"bsdf", "blendbsdf", NORRSKEN_DIFFUSE NORRSKEN_DIFFUSE, {share("weight")}, {"weight"}},
     {"bsdf", "bumpmap", NORRSKEN_RELIEF NORRSKEN_DIFFUSE, join(kRelief, {{"scale", "float", "3"}})},
     {"bsdf", "normalmap", NORRSKEN_DIFFUSE, join(kRelief, {{"normalmap", "rgb", "0.5, 0.5, 1"}}), {"normalmap"}},
     {"bsdf", "twosided", NORRSKEN_DIFFUSE, {}},
@@ -241,7 +242,7 @@ inline const Plugin kPlugins[] = {
     {"rfilter", "box", "", {}},
     {"rfilter", "tent", "", {{"radius", "float", "2", "0", "a number above 0 and at most 100"}}},
     {"rfilter", "gaussian", "", {{"stddev", "float", "1", "0", "a number above 0 and at most 25"}}},
-    {"rfilter", "mitchell", "", {share("B"), share("C")}},
+    {"rfilter", "mitchell", "", {{"B", "float", "0.25", "1.5", kShare}, {"C", "float", "0.25", "1.5", kShare}}},
     {"rfilter", "catmullrom", "", {}},
     {"rfilter", "lanczos", "", {{"lobes", "integer", "2", "0", "an integer from 1 to 16"}}},
 
