@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <string_view>
+#include <utility>
 
 #include "base/text.h"
 
@@ -18,14 +19,21 @@ namespace {
 
 using Names = std::vector<std::string>;
 
+// Some programs write the names out.
+bool is_named(std::string_view channel, std::string_view wanted) {
+  constexpr std::pair<std::string_view, std::string_view> kLong[] = {{"R", "Red"}, {"G", "Green"}, {"B", "Blue"}};
+  return equal_ignoring_case(channel, wanted) || std::ranges::any_of(kLong, [&](const auto& names) {
+           return names.first == wanted && equal_ignoring_case(channel, names.second);
+         });
+}
+
 // The channels of a layer with these last names; none if one is missing.
 std::vector<std::size_t> channels_of(const Names& names, std::string_view layer,
                                      std::initializer_list<std::string_view> wanted) {
   std::vector<std::size_t> found;
   for (const std::string_view last : wanted) {
-    const auto channel = std::ranges::find_if(names, [&](const std::string& name) {
-      return layer_of(name) == layer && equal_ignoring_case(last_name(name), last);
-    });
+    const auto channel = std::ranges::find_if(
+        names, [&](const std::string& name) { return layer_of(name) == layer && is_named(last_name(name), last); });
     if (channel == names.end()) return {};
     found.push_back(static_cast<std::size_t>(channel - names.begin()));
   }

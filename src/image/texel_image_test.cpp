@@ -136,6 +136,9 @@ TEST(TexelImage, GuessesAtChannelsAreTold) {
   const TexelImage grey = exr_of({{"Y", 7}, {"albedo.R", 1}, {"albedo.G", 2}, {"albedo.B", 3}});
   EXPECT_EQ(grey.remark, "");
   EXPECT_EQ(grey.values, Array<float>{7});
+  const TexelImage written_out = exr_of({{"Red", 1}, {"Green", 2}, {"Blue", 3}});
+  EXPECT_EQ(written_out.remark, "");
+  EXPECT_EQ(written_out.values, (Array<float>{1, 2, 3}));
   EXPECT_EQ(exr_of({{"Y", 1}, {"RY", 0}, {"BY", 0}}).remark,
             "has colours in channels RY and BY, which are not read: Y is taken for grey");
   EXPECT_EQ(exr_of({{"R", 1}}).remark, "");

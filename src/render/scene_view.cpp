@@ -33,10 +33,10 @@ const T* data_or_one(const Array<T>& values) {
 }
 
 /// Planes widen their polygons by what rounding does to coordinates of the scene: too much for a mesh, or a part of one that
-/// shares no vertex with the rest, that is far from the origin and small. At a hundred times its size a triangle has grown by
-/// 0.1 % of its area, at 3000 times by 2 %.
+/// shares no vertex with the rest, that is far from the origin and small. At 300 times its size a triangle has grown by
+/// 0.2 % of its area, at 3000 times by 2 %.
 bool is_too_far_for_planes(const SceneTables& tables) {
-  constexpr double kFarthest = 100;  // of a part's own size
+  constexpr double kFarthest = 300;  // of a part's own size
   struct Box {
     std::array<double, 3> lower, upper;
   };

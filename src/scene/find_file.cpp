@@ -41,10 +41,13 @@ std::optional<std::string> nearest(const FileSystem& files, const std::string& n
     if (std::string found = in_other_case(files, folder, name); !found.empty()) return found;
   }
   // The path is of another machine, or the name has another ending.
-  const std::string last = name.substr(name.rfind('/') + 1);
-  for (const std::string& folder : folders) {
-    if (last != name && !last.empty() && files.exists(joined(folder, last))) return last;
+  for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1)) {
+    const std::string tail = name.substr(slash + 1);
+    for (const std::string& folder : folders) {
+      if (std::string found = tail.empty() ? tail : in_other_case(files, folder, tail); !found.empty()) return found;
+    }
   }
+  const std::string last = name.substr(name.rfind('/') + 1);
   const auto stem = [](const std::string& file) { return file.substr(0, file.rfind('.')); };
   const std::string inside = name.starts_with('/') ? std::string() : folder_of(name);
   for (const std::string& folder : folders) {

@@ -154,13 +154,18 @@ class FarAway : public SceneFolder {};
 
 /// Where planes, which would do for so few triangles, would make them visibly larger.
 TEST_F(FarAway, SmallThingsKeepTheirSize) {
-  write("m.obj", "v -0.5 -0.5 0\nv 0.5 -0.5 0\nv 0 0.5 0\nf 1 2 3\n");
-  const auto covered = [&](const std::string& at) {
+  const auto corner = [](double at, double x, double y) {
+    return "v " + std::to_string(at + x) + " " + std::to_string(at + y) + " 0\n";
+  };
+  const auto triangle = [&](double at) { return corner(at, -0.5, -0.5) + corner(at, 0.5, -0.5) + corner(at, 0, 0.5); };
+  write("m.obj", triangle(0) + "f 1 2 3\n");
+  write("parts.obj", triangle(3000) + triangle(-3000) + "f 1 2 3\nf 4 5 6\n");
+  const auto covered = [&](const std::string& file, const std::string& at, const std::string& moved) {
     const View view{.origin = at + ", " + at + ", 4", .target = at + ", " + at + ", 0"};
     const std::string place =
-        R"(<transform name="to_world"><translate x=")" + at + R"(" y=")" + at + R"("/></transform>)";
+        R"(<transform name="to_world"><translate x=")" + moved + R"(" y=")" + moved + R"("/></transform>)";
     const Scene scene = load_elements(R"(<integrator type="path"><integer name="max_depth" value="1"/></integrator>)" +
-                                      camera(32, view) + R"(<shape type="obj">)" + text("filename", "m.obj") + place +
+                                      camera(32, view) + R"(<shape type="obj">)" + text("filename", file) + place +
                                       R"(<emitter type="area"/></shape>)");
     double sum = 0;
     const Image image = render_image(scene, {.samples_per_pixel = 256, .threads = kThreads});
@@ -168,7 +173,9 @@ TEST_F(FarAway, SmallThingsKeepTheirSize) {
     return sum;
   };
   // The image's samples know the area to 0.03 % at either place; planes are 2 % off.
-  EXPECT_NEAR(covered("3000") / covered("0"), 1, 2e-3);
+  const double wanted = covered("m.obj", "0", "0");
+  EXPECT_NEAR(covered("m.obj", "3000", "3000") / wanted, 1, 2e-3);
+  EXPECT_NEAR(covered("parts.obj", "3000", "0") / wanted, 1, 2e-3) << "a mesh whose parts are small";
 }
 
 /// The room's triangles stay what they are made of.
