@@ -3,11 +3,7 @@
 
 #include "accel/sphere.h"
 #include "math/affine.h"
-#include "shape/bsplinecurve.h"
-#include "shape/cylinder.h"
-#include "shape/disk.h"
-#include "shape/linearcurve.h"
-#include "shape/sdfgrid.h"
+#include "shape/models.h"
 #include "tables/wave_types.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -20,7 +16,7 @@ NORRSKEN_INLINE void with_model(AnalyticKind kind, const Function& function) {
   case AnalyticKind::kind:                                 \
     if constexpr (!kHasElements<Model>) function(Model()); \
     break;
-#include "shape/list.def"
+#include "lists/analytic_shape.def"
 #undef NORRSKEN_ANALYTIC
     case AnalyticKind::count:
       break;
