@@ -19,7 +19,7 @@ Array<float> triangle_extents(const SceneTables& scene) {
 
 }  // namespace
 
-Accel::Accel(const SceneTables& scene, AccelKind kind) {
+Accel::Accel(const SceneTables& scene, AccelKind kind, Variation variation) {
   spheres_ = build_spheres(scene);
   view_.kind = kind;
   view_.sphere_count = static_cast<std::uint32_t>(spheres_.size());
@@ -31,7 +31,7 @@ Accel::Accel(const SceneTables& scene, AccelKind kind) {
     const auto others = std::stable_partition(
         spheres_.begin(), spheres_.end(), [&](const SphereRecord& s) { return scene.light_of(s.primitive) != kNone; });
     view_.emitter_sphere_count = static_cast<std::uint32_t>(others - spheres_.begin());
-    planes_ = build_planes(scene);
+    planes_ = build_planes(scene, variation);
     view_.planes = planes_.planes.data();
     view_.polygons = planes_.polygons.data();
     view_.rows = planes_.rows.data();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "base/memory.h"
@@ -22,7 +23,9 @@ struct PlaneTables {
 };
 
 /// Merges coplanar triangles into convex polygons and sorts them into planes.
-PlaneTables build_planes(const SceneTables& scene);
+/// Triangles that differ in what they show by `variation` (layers may show what the surfaces' models do not look at) stay
+/// apart.
+PlaneTables build_planes(const SceneTables& scene, Variation variation = Variation::none);
 
 /// The spheres in order of their primitives.
 Array<SphereRecord> build_spheres(const SceneTables& scene);
@@ -86,11 +89,17 @@ constexpr std::uint32_t planes_up_to(std::uint32_t lanes) { return lanes > 3 ? 1
 /// Beyond this many the planes are refused even if asked for: merging is quadratic.
 inline constexpr std::uint32_t kPlanesAtMost = 4096;
 
+/// A structure that could not be built for want of threads, or of memory that nobody counts.
+class AccelFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// One of the three, with all that its view borrows.
 class Accel {
  public:
   /// Analytic primitives and instances are for Embree alone.
-  Accel(const SceneTables& scene, AccelKind kind);
+  Accel(const SceneTables& scene, AccelKind kind, Variation variation = Variation::none);
   const AccelView& view() const { return view_; }
 
  private:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -13,15 +14,23 @@
 #include "scene/constant_spectrum.h"
 #include "scene/within_memory.h"
 #include "tables/accel_memory.h"
-#include "tables/film_memory.h"
 
 namespace norrsken {
 namespace {
 
 /// Adapters within adapters: far more than any scene needs, far fewer than the stack holds.
 constexpr int kMaxBsdfDepth = 64;
-/// The same of integrators.
-constexpr int kMaxIntegratorDepth = 8;
+
+/// Sensors and integrators.
+Description outline_of(const Description& description) {
+  auto root = std::make_shared<Node>();
+  root->kind = description.scene->kind;
+  root->location = description.scene->location;
+  for (const Node::Child& child : description.scene->children) {
+    if (child.node->kind == "sensor" || child.node->kind == "integrator") root->children.push_back(child);
+  }
+  return {std::move(root), description.search_paths, description.parameters};
+}
 
 template <class Container>
 std::uint64_t bytes_of(const Container& container) {
@@ -160,170 +169,6 @@ void Builder::add_environment(const Node& node, const LightRecord& light, const 
   tables().environment = add_light(light, power);
 }
 
-IntegratorSettings Builder::integrator(const Node& node) {
-  IntegratorSettings settings;
-  if (integrator_depth_ == kMaxIntegratorDepth) {
-    diagnostics_.error(node.location, fmt::format("integrators are nested more than {} deep", kMaxIntegratorDepth),
-                       fmt::format("up to {} inside each other", kMaxIntegratorDepth));
-  } else if (const auto* plugin = find_plugin(integrator_plugins(), node, diagnostics_)) {
-    ++integrator_depth_;
-    Parameters p = parameters(node);
-    settings = plugin->compile(p, *this);
-    p.finish();
-    describe(node, {});
-    --integrator_depth_;
-  }
-  return settings;
-}
-
-FilterRecord Builder::rfilter(Parameters& film) {
-  Node default_filter;
-  default_filter.kind = "rfilter";
-  default_filter.plugin = "gaussian";
-  default_filter.location = film.node().location;
-  const Node::Child* child = film.child("rfilter");
-  const Node& node = child ? *child->node : default_filter;
-  FilterRecord filter;
-  if (const auto* plugin = find_plugin(rfilter_plugins(), node, diagnostics_)) {
-    Parameters p = parameters(node);
-    filter = plugin->compile(p, *this);
-    p.finish();
-    describe(node, {});
-  }
-  return filter;
-}
-
-/// Compiles `child`, or the plugin `fallback` if there is none. A `replacement` from the command line takes the node's
-/// parameters, except for those it does not know.
-template <class Function>
-auto Builder::compile_chosen(const Node::Child* child, const char* kind, const char* fallback,
-                             const std::optional<std::string>& replacement, std::span<const Plugin<Function>> table,
-                             std::string& plugin_name) {
-  Node node;
-  if (child) {
-    node = *child->node;
-  } else {
-    node.kind = kind;
-    node.plugin = fallback;
-  }
-  const bool replaced = replacement && *replacement != node.plugin;
-  if (replaced) {
-    node.plugin = *replacement;
-    node.plugin_location = {};
-  }
-  decltype(table[0].compile(std::declval<Parameters&>(), *this)) settings;
-  plugin_name = node.plugin;
-  if (const auto* plugin = find_plugin(table, node, diagnostics_)) {
-    Parameters p = parameters(node);
-    settings = plugin->compile(p, *this);
-    if (!replaced) p.finish();
-    describe(node, {});
-  }
-  return settings;
-}
-
-FilmSettings Builder::film(Parameters& sensor, const LoadOptions& options, SourceLocation& place) {
-  FilmSettings settings;
-  Node default_film;
-  default_film.kind = "film";
-  default_film.plugin = "hdrfilm";
-  default_film.location = sensor.node().location;
-  const Node::Child* child = sensor.child("film");
-  const Node& node = child ? *child->node : default_film;
-  const auto* plugin = find_plugin(film_plugins(), node, diagnostics_);
-  if (!plugin) return settings;
-  Parameters p = parameters(node);
-  settings = plugin->compile(p, *this);
-  p.finish();
-
-  // Another size shows the same picture, and a crop window the same part of it.
-  const auto override_side = [&](const char* name, const std::optional<int>& value, int& full, int& offset, int& size) {
-    if (!value) return;
-    const int side = std::clamp(*value, 1, kMaxFilmSide);
-    if (side != *value) {
-      diagnostics_.error({}, fmt::format("{} {} is out of range", name, *value), fmt::format("1 to {}", kMaxFilmSide));
-    }
-    const auto scaled = [&](int x) { return static_cast<int>(std::lround(static_cast<double>(x) * side / full)); };
-    const int begin = std::min(scaled(offset), side - 1), end = std::max(scaled(offset + size), begin + 1);
-    full = side, offset = begin, size = end - begin;
-  };
-  override_side("width", options.width, settings.full_width, settings.crop_x, settings.width);
-  override_side("height", options.height, settings.full_height, settings.crop_y, settings.height);
-  const auto pixels = static_cast<std::uint64_t>(std::int64_t{settings.width} * settings.height);
-  place = options.width || options.height ? SourceLocation{} : node.location;
-  if (pixels > kMaxFilmPixels) {
-    diagnostics_.error(place, fmt::format("a film of {} x {} has {} pixels", settings.width, settings.height, pixels),
-                       fmt::format("up to {} pixels", kMaxFilmPixels));
-  }
-  std::string detail = fmt::format("{} x {}", settings.width, settings.height);
-  if (settings.width != settings.full_width || settings.height != settings.full_height) {
-    detail += fmt::format(" at ({}, {}) of {} x {}", settings.crop_x, settings.crop_y, settings.full_width,
-                          settings.full_height);
-  }
-  describe(node, std::move(detail));
-  return settings;
-}
-
-void Builder::measure_film(const SourceLocation& place, bool reserve) {
-  const FilmSettings& settings = tables().film;
-  SceneInfo::Memory& memory = scene_.info.memory;
-  const std::uint64_t film_bytes = film_bytes_per_pixel(settings, tables().sampler.kind, scene_.layers,
-                                                        tables().integrator.from_lights),
-                      image_bytes = image_bytes_per_pixel(settings, scene_.layers);
-  const auto pixels = static_cast<std::uint64_t>(std::int64_t{settings.width} * settings.height);
-  memory.film = pixels * film_bytes, memory.image = pixels * image_bytes;
-  if (!reserve) return;
-  try {
-    film_memory_ = MemoryReservation(memory.film + memory.image);
-  } catch (const MemoryExceeded& e) {
-    const std::uint64_t left = e.limit - std::min(e.used, e.limit);
-    diagnostics_.error(
-        place,
-        shortage_text(
-            fmt::format("a film of {} x {} pixels with its image needs", settings.width, settings.height).c_str(),
-            e.wanted, left, e.limit),
-        fmt::format("up to {} pixels, as by a smaller --size, or a larger --max-memory",
-                    left / (film_bytes + image_bytes)));
-    throw LoadingStopped{};
-  }
-}
-
-void Builder::override_samples_per_pixel(const LoadOptions& options) {
-  if (!options.samples_per_pixel) return;
-  if (*options.samples_per_pixel < 1) {
-    diagnostics_.error({}, fmt::format("{} samples per pixel", *options.samples_per_pixel),
-                       fmt::format("an integer from 1 to {}", kMaxSampleCount));
-    return;
-  }
-  tables().sampler.samples_per_pixel = *options.samples_per_pixel;
-}
-
-void Builder::compile_sensor(Parameters& scene, const LoadOptions& options) {
-  const auto sensors = scene.children("sensor");
-  const Node* chosen = choose_sensor(scene, options.sensor);
-  if (sensors.empty() && is_whole_)
-    diagnostics_.error(scene.node().location, "the scene has no sensor", "<sensor type=\"perspective\">");
-  for (std::size_t i = 0; sensors.size() > 1 && i < sensors.size(); ++i) {
-    const bool is_chosen = sensors[i]->node.get() == chosen;
-    describe(*sensors[i]->node, fmt::format("--sensor {}{}", i, is_chosen ? ", the one that is used" : ""));
-  }
-  if (!chosen) return;
-  const Node& node = *chosen;
-  const auto* plugin = find_plugin(sensor_plugins(), node, diagnostics_);
-  if (!plugin) return;
-  Parameters p = parameters(node);
-  SourceLocation film_place;
-  tables().film = film(p, options, film_place);
-  tables().sampler =
-      compile_chosen(p.child("sampler"), "sampler", "sobol", options.sampler, sampler_plugins(), scene_.info.sampler);
-  override_samples_per_pixel(options);
-  if (!diagnostics_.has_errors()) measure_film(film_place, options.reserve_film);
-  tables().camera = plugin->compile(p, *this, tables().film);
-  view_place_ = p.where("far_clip");
-  refuse_kinds_to_come(p);
-  p.finish();
-}
-
 void Builder::choose_lights() {
   if (!light_powers_.empty() && std::ranges::all_of(light_powers_, [](const LightPower& p) { return p.weight == 0; })) {
     diagnostics_.error(description_.scene->location, "every emitter has a sampling_weight of 0",
@@ -360,23 +205,12 @@ void Builder::summarise() {
   if (const auto& budget = MemoryScope::current()) info.memory.loading = budget->peak();
 }
 
-Variation Builder::variation_of_layers() const {
-  Variation variation = Variation::none;
-  for (const FeatureLayer& layer : scene_.layers.features) {
-    if (layer.feature == kFeaturePrimitive) return Variation::by_triangle;
-    if ((1u << layer.feature & kUvFeatures) != 0) variation = Variation::over_uv;
-  }
-  return variation;
-}
-
 LoadedScene Builder::build(const LoadOptions& options) {
   const Node& root = *description_.scene;
   is_whole_ = !diagnostics_.has_errors();
   const std::set<const Node*> inside = nodes_inside_of_others(root);
   Parameters p = parameters(root);
-  tables().integrator = compile_chosen(integrator_of_scene(p, inside), "integrator", "path", options.integrator,
-                                       integrator_plugins(), scene_.info.integrator);
-  compile_sensor(p, options);
+  compile_frame(p, inside, view_of(options), options.reserve_film);
   for (const Node::Child* child : p.children("bsdf")) bsdf(*child->node);
   for (const char* kind : {"spectrum", "texture"}) {
     for (const Node::Child* child : p.children(kind)) {
@@ -393,14 +227,14 @@ LoadedScene Builder::build(const LoadOptions& options) {
     if (tables().lights.empty()) diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
     tell_what_is_beyond_view();
   }
-  const Variation of_layers = variation_of_layers();
-  for (ShapeRecord& shape : tables().shapes) shape.variation = std::max(shape.variation, of_layers);
   geometry_.finish(scene_.info);
   attributes_.finish();
   choose_lights();
   summarise();
   scene_.memory = MemoryScope::current();
   scene_.file = root.location.file;
+  scene_.outline = outline_of(description_);
+  scene_.view = view_of(options);
   return std::move(scene_);
 }
 

@@ -25,7 +25,7 @@ const Node::Child* integrator_of_scene(Parameters& scene, const std::set<const N
 std::vector<const Node*> emitters_of_scene(Parameters& scene, const std::set<const Node*>& inside);
 
 /// The sensor with the id `choice`, or of that number, counted from 0; the first without a choice, with a warning if
-/// there are others. Null after a complaint.
-const Node* choose_sensor(Parameters& scene, const std::optional<std::string>& choice);
+/// there are others and `tell_of_others`. Null after a complaint.
+const Node* choose_sensor(Parameters& scene, const std::optional<std::string>& choice, bool tell_of_others);
 
 }  // namespace norrsken

@@ -76,6 +76,12 @@ IoStatus read_image(const std::string& path, Image& image, std::uint64_t most_by
   return {};
 }
 
+Result<Image> read_image(const std::string& path, const std::shared_ptr<MemoryBudget>& memory) {
+  Image image;
+  const IoStatus status = read_image(path, image, (memory ? memory : MemoryBudget::of_machine())->left());
+  return status ? Result<Image>(std::move(image)) : Result<Image>::failure(status.error);
+}
+
 std::string read_texels(const std::string& path, const std::string& contents, TexelImage& image) {
   std::string error;
   TexelImage read;

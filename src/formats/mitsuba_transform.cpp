@@ -11,7 +11,7 @@
 namespace norrsken {
 namespace {
 
-using Matrix = std::optional<Property::Transform>;
+using Matrix = std::optional<glm::dmat4>;
 
 Matrix translate(const Element& step, Diagnostics& diagnostics) {
   const auto by = read_coordinates(step, 0.0, diagnostics);
@@ -121,7 +121,7 @@ std::vector<std::string> transform_step_names() {
   return names;
 }
 
-std::optional<Property::Transform> read_transform_step(const Element& step, Diagnostics& diagnostics) {
+std::optional<glm::dmat4> read_transform_step(const Element& step, Diagnostics& diagnostics) {
   return find_step(step.name)->read(step, diagnostics);
 }
 

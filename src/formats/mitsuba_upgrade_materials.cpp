@@ -158,7 +158,7 @@ void MitsubaUpgrade::upgrade_texture(Node& node) {
     note(first->location, "'uscale', 'vscale', 'uoffset' and 'voffset' are 'to_uv'");
   }
   to_uv.name = "to_uv", to_uv.type = "transform", to_uv.written = first->name;
-  to_uv.value = glm::translate(glm::scale(glm::dmat4(1), scale), offset);
+  to_uv.value = to_transform(glm::translate(glm::scale(glm::dmat4(1), scale), offset));
   for (const char* name : {"uscale", "vscale", "uoffset", "voffset"}) remove(node, name);
   node.properties.push_back(std::move(to_uv));
 }
@@ -208,7 +208,7 @@ void MitsubaUpgrade::upgrade_scale_texture(Node& node) {
   if (!value) return;
   Property constant = *value;
   if (auto* rgb = std::get_if<Property::Rgb>(&constant.value)) {
-    rgb->value *= scale;
+    for (double& component : rgb->value) component *= scale;
   } else if (auto* spectrum = std::get_if<Property::Spectrum>(&constant.value)) {
     for (auto& sample : spectrum->samples) sample.second *= scale;
   } else {

@@ -50,7 +50,7 @@ inline std::string text_of(const Property& property) {
 }
 
 /// A property that the file does not have; complaints about it point at the node's type.
-inline void add_property(Node& node, std::string name, std::string type, decltype(Property::value) value) {
+inline void add_property(Node& node, std::string name, std::string type, Property::Value value) {
   Property property;
   property.name = std::move(name);
   property.type = std::move(type);

@@ -44,6 +44,6 @@ std::optional<glm::dvec3> read_coordinates(const Element& element, std::optional
 std::optional<AttributeRules> transform_step_rules(std::string_view name);
 std::vector<std::string> transform_step_names();
 /// The matrix of one step.
-std::optional<Property::Transform> read_transform_step(const Element& step, Diagnostics& diagnostics);
+std::optional<glm::dmat4> read_transform_step(const Element& step, Diagnostics& diagnostics);
 
 }  // namespace norrsken

@@ -25,6 +25,8 @@ class FileSystem {
   /// Whether there is a file or a folder of that name.
   virtual bool exists(const std::string& path) const;
   virtual bool is_folder(const std::string& path) const;
+  /// Whether its paths are those of the disk.
+  virtual bool is_disk() const { return true; }
 };
 
 /// Whether the path means a file compiled into the program.

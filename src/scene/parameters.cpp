@@ -15,6 +15,7 @@
 #include "scene/base_parameters.h"
 #include "scene/constant_spectrum.h"
 #include "scene/file_system.h"
+#include "scene/parameters_find.h"
 
 namespace norrsken {
 namespace {
@@ -23,11 +24,6 @@ namespace {
 constexpr double kMaxNumber = 1e30;
 // |det| below this share of the product of the column lengths is singular but for rounding.
 constexpr double kSingular = 1e-12;
-
-std::string with_article(const std::string& type) {
-  const bool vowel = type == "rgb" || std::string_view("aeio").find(type.front()) != std::string_view::npos;
-  return (vowel ? "an " : "a ") + type;
-}
 
 // "bsdf 'diffuse'"; the scene has no plugin.
 std::string name_of(const Node& node) {
@@ -99,19 +95,6 @@ const Node::Child* Parameters::find_child(std::string_view name) const {
   const auto named = [name](const Node::Child& child) { return child.name == name; };
   const auto found = std::find_if(node_.children.begin(), node_.children.end(), named);
   return found == node_.children.end() ? nullptr : &*found;
-}
-
-template <typename... Types>
-const Property* Parameters::find_as(std::string_view name, std::string_view accepted) {
-  const Property* property = find(name);
-  if (property && (std::holds_alternative<Types>(property->value) || ...)) return property;
-  if (property) {
-    error(name, fmt::format("'{}' is {}", name, with_article(property->type)), std::string(accepted));
-    return nullptr;
-  }
-  if (const Node::Child* child = find_child(name))
-    error(name, fmt::format("'{}' is {} here", name, with_article(child->node->kind)), std::string(accepted));
-  return nullptr;
 }
 
 template <typename... Types>
@@ -230,7 +213,7 @@ std::optional<glm::dvec3> Parameters::color_of(const Property& property, std::st
 
   glm::dvec3 value;
   if (const auto* rgb = std::get_if<Property::Rgb>(&property.value)) {
-    value = rgb->value;
+    value = to_glm(rgb->value);
   } else if (const auto* real = std::get_if<double>(&property.value)) {
     value = glm::dvec3(*real);
   } else {
@@ -255,26 +238,10 @@ std::vector<std::pair<double, double>> Parameters::spectrum(std::string_view nam
   return {};
 }
 
-std::vector<double> Parameters::numbers(std::string_view name) {
-  constexpr std::string_view kAccepted = "a string of numbers";
-  const Property* property = find_as<std::string>(name, kAccepted);
-  if (!property) return {};
-  std::vector<double> values;
-  for (const TextPiece& piece : split(std::get<std::string>(property->value), " \t\r\n,")) {
-    const NumberStatus status = parse_number(piece.text, values.emplace_back());
-    if (status == NumberStatus::ok) continue;
-    error(name, fmt::format("{} in '{}'{} {}", quoted(piece.text), name, property->origin, describe(status)),
-          std::string(kAccepted));
-    return {};
-  }
-  if (values.empty()) error(name, fmt::format("'{}' is empty{}", name, property->origin), std::string(kAccepted));
-  return values;
-}
-
 glm::dvec3 Parameters::point(std::string_view name, glm::dvec3 fallback) {
   const Property* property = find_as<Property::Vector>(name, "point, vector");
   if (!property) return fallback;
-  const glm::dvec3 value = std::get<Property::Vector>(property->value).value;
+  const glm::dvec3 value = to_glm(std::get<Property::Vector>(property->value).value);
   for (int i = 0; i < 3; ++i) {
     if (std::abs(value[i]) <= kMaxCoordinate) continue;
     error(name, fmt::format("'{}' is ({}, {}, {}){}", name, value.x, value.y, value.z, property->origin),
@@ -287,7 +254,7 @@ glm::dvec3 Parameters::point(std::string_view name, glm::dvec3 fallback) {
 glm::dmat4 Parameters::transform(std::string_view name, Flat flat) {
   const Property* property = find_as<Property::Transform>(name, "transform");
   if (!property) return glm::dmat4(1);
-  const glm::dmat4& matrix = std::get<Property::Transform>(property->value);
+  const glm::dmat4 matrix = to_glm(std::get<Property::Transform>(property->value));
   const auto [complaint, accepted] = complaint_about(matrix, flat);
   if (complaint.empty()) return matrix;
   error(name, fmt::format("'{}' {}", name, complaint), accepted);

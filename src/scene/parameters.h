@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/memory.h"
 #include "scene/description.h"
 
 namespace norrsken {
@@ -56,8 +57,20 @@ class Parameters {
   const Node::Child* texture(std::string_view name);
   /// Wavelengths in nm and values, spelled out; empty after a complaint.
   std::vector<std::pair<double, double>> spectrum(std::string_view name);
-  /// Numbers in a string, apart by blanks or commas; empty after a complaint.
+  /// Numbers in a string, apart by blanks or commas, or an array; empty after a complaint.
   std::vector<double> numbers(std::string_view name);
+  /// The same in the memory budget, for what may be large: floats, `per_element` for each element, all finite and at
+  /// most kMaxCoordinate in size.
+  Array<float> floats(std::string_view name, std::size_t per_element);
+  /// Whole numbers from 0 on, `per_element` for each element.
+  Array<std::uint32_t> indices(std::string_view name, std::size_t per_element);
+  /// What programs give in place of a file; null after a complaint, or if it was not given.
+  std::shared_ptr<const Mesh> mesh(std::string_view name) {
+    return shared<Mesh>(name, "a mesh, in scenes that a program makes");
+  }
+  std::shared_ptr<const Image> image(std::string_view name) {
+    return shared<Image>(name, "an image, in scenes that a program makes");
+  }
   glm::dvec3 point(std::string_view name, glm::dvec3 fallback);
   /// Identity if not given; projective ones are an error, and singular ones where nothing flat will do.
   glm::dmat4 transform(std::string_view name, Flat flat = Flat::no);
@@ -89,6 +102,8 @@ class Parameters {
   /// The same, or what a node of one value says, which is put into `storage`.
   template <typename... Types>
   const Property* find_value(std::string_view name, std::string_view accepted, Property& storage);
+  template <class T>
+  std::shared_ptr<const T> shared(std::string_view name, std::string_view accepted);
   double number_of(const Property& property, std::string_view name, double fallback, double min, double max, Ends ends);
   std::optional<glm::dvec3> color_of(const Property& property, std::string_view name, double min, double max,
                                      bool emission);

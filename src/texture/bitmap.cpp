@@ -1,7 +1,7 @@
 // bitmap: host side.
 //
 // Parameters
-//   filename     string (required): PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR
+//   filename     string (required): PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR. Programs may give an `image` in its place
 //   filter_type  bilinear (default) or nearest
 //   wrap_mode    repeat (default), mirror or clamp
 //   raw          boolean (default false): the numbers as they are stored, such as directions and heights. Otherwise
@@ -20,7 +20,6 @@
 namespace norrsken {
 
 Texture compile_texture_bitmap(Parameters& p, Builder& builder) {
-  const std::string filename = p.file("filename");
   const bool nearest = p.choice("filter_type", "bilinear", {"bilinear", "nearest"}) == "nearest";
   const std::string wrap_mode = p.choice("wrap_mode", "repeat", {"repeat", "mirror", "clamp"});
   const bool raw = p.boolean("raw", false);
@@ -28,8 +27,7 @@ Texture compile_texture_bitmap(Parameters& p, Builder& builder) {
   p.boolean("accel", true);
   ParameterBlock block;
   add_to_uv(block, p.transform("to_uv"));
-  if (filename.empty()) return {};
-  const auto image = builder.images().load(filename, raw, p.where("filename"));
+  const auto image = builder.images().of(p, raw);
   if (!image) return {};
   const std::uint32_t wrap = wrap_mode == "repeat" ? 0 : wrap_mode == "mirror" ? 1 : 2;
   const auto texture_of = [&builder, block, wrap, nearest](const StoredImage& stored) {

@@ -1,0 +1,32 @@
+// How Parameters looks a property up by its types: for its own source files.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "scene/parameters.h"
+
+namespace norrsken {
+
+inline std::string with_article(const std::string& type) {
+  const bool vowel = type == "rgb" || std::string_view("aeio").find(type.front()) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + type;
+}
+
+template <typename... Types>
+const Property* Parameters::find_as(std::string_view name, std::string_view accepted) {
+  const Property* property = find(name);
+  if (property && (std::holds_alternative<Types>(property->value) || ...)) return property;
+  if (property) {
+    error(name, fmt::format("'{}' is {}", name, with_article(type_of(*property))), std::string(accepted));
+    return nullptr;
+  }
+  if (const Node::Child* child = find_child(name))
+    error(name, fmt::format("'{}' is {} here", name, with_article(child->node->kind)), std::string(accepted));
+  return nullptr;
+}
+
+}  // namespace norrsken
