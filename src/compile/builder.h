@@ -88,6 +88,9 @@ class ParameterBlock {
 /// 6 floats: the map of texture coordinates that a transformation makes in x and y (see texture/texture.h).
 void add_to_uv(ParameterBlock& block, const glm::dmat4& transform);
 
+/// How often an emitter is chosen, in proportion.
+double read_sampling_weight(Parameters& emitter);
+
 class Builder {
  public:
   Builder(const Description& description, const FileSystem& files, Diagnostics& diagnostics)

@@ -181,7 +181,8 @@ class RenderSession final : public Render {
     s.lanes = static_cast<int>(kernels_.lanes);
     s.samples_of_pixels = !view_.integrator.from_lights;
     s.accelerator = accel_name(view_.accel.kind);
-    made_.seconds = seconds_before_ + s.seconds;
+    // With a checkpoint it is what that says: whoever goes on from it has taken no less.
+    if (!checkpoint_) made_.seconds = seconds_before_ + s.seconds;
     passes.look();
     RenderProgress last = progress();
     end_crew(metadata_of(

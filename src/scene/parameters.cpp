@@ -110,11 +110,14 @@ const Property* Parameters::find_value(std::string_view name, std::string_view a
 }
 
 bool Parameters::boolean(std::string_view name, bool fallback) {
+  note(name, PluginParameter::Type::boolean, fallback ? "true" : "false");
   const Property* property = find_as<bool>(name, "boolean");
   return property ? std::get<bool>(property->value) : fallback;
 }
 
 std::int64_t Parameters::integer(std::string_view name, std::int64_t fallback, std::int64_t min, std::int64_t max) {
+  note(name, PluginParameter::Type::integer, std::to_string(fallback));
+  note_range(name, static_cast<double>(min), static_cast<double>(max), Ends::closed);
   const Property* property = find_as<std::int64_t>(name, "integer");
   if (!property) return fallback;
   const std::int64_t value = std::get<std::int64_t>(property->value);
@@ -127,12 +130,16 @@ std::int64_t Parameters::integer(std::string_view name, std::int64_t fallback, s
 }
 
 double Parameters::number(std::string_view name, double fallback, double min, double max, Ends ends) {
+  note(name, PluginParameter::Type::number, fmt::format("{}", fallback));
+  note_range(name, min, max, ends);
   Property storage;
   const Property* property = find_value<double, std::int64_t>(name, "float", storage);
   return property ? number_of(*property, name, fallback, min, max, ends) : fallback;
 }
 
 double Parameters::mean(std::string_view name, double fallback, double min, double max, Ends ends) {
+  note(name, PluginParameter::Type::number, fmt::format("{}", fallback));
+  note_range(name, min, max, ends);
   Property storage;
   const Property* property =
       find_value<double, std::int64_t, Property::Rgb, Property::Spectrum>(name, "float, rgb, spectrum", storage);
@@ -165,6 +172,7 @@ double Parameters::number_of(const Property& property, std::string_view name, do
 }
 
 std::string Parameters::text(std::string_view name, std::string_view fallback) {
+  note(name, PluginParameter::Type::text, std::string(fallback));
   const Property* property = find_as<std::string>(name, "string");
   return property ? std::get<std::string>(property->value) : std::string(fallback);
 }
@@ -172,6 +180,8 @@ std::string Parameters::text(std::string_view name, std::string_view fallback) {
 std::string Parameters::choice(std::string_view name, std::string_view fallback,
                                std::initializer_list<std::string_view> words) {
   const std::vector<std::string> choices(words.begin(), words.end());
+  note(name, PluginParameter::Type::text, std::string(fallback));
+  if (record_) recorded(name).choices = choices;
   const Property* property = find_as<std::string>(name, "string: " + join(choices));
   if (!property) return std::string(fallback);
   const std::string& value = std::get<std::string>(property->value);
@@ -183,6 +193,7 @@ std::string Parameters::choice(std::string_view name, std::string_view fallback,
 }
 
 const Node::Child* Parameters::texture(std::string_view name) {
+  if (record_) recorded(name).may_be_texture = true;
   const Node::Child* child = find_child(name);
   if (!child || !is_spectrum_or_texture(*child->node) || is_constant_spectrum(*child->node)) return nullptr;
   asked_names_.emplace(name);
@@ -190,6 +201,10 @@ const Node::Child* Parameters::texture(std::string_view name) {
 }
 
 glm::dvec3 Parameters::color(std::string_view name, glm::dvec3 fallback, double min, double max, bool emission) {
+  const bool is_grey = fallback.x == fallback.y && fallback.y == fallback.z;
+  note(name, PluginParameter::Type::color,
+       is_grey ? fmt::format("{}", fallback.x) : fmt::format("{}, {}, {}", fallback.x, fallback.y, fallback.z));
+  note_range(name, min, max, Ends::closed);
   Property storage;
   const Property* property =
       find_value<Property::Rgb, Property::Spectrum, double, std::int64_t>(name, "rgb, spectrum, float", storage);
@@ -229,6 +244,7 @@ std::optional<glm::dvec3> Parameters::color_of(const Property& property, std::st
 }
 
 std::vector<std::pair<double, double>> Parameters::spectrum(std::string_view name) {
+  note(name, PluginParameter::Type::spectrum);
   constexpr std::string_view kAccepted = "a spectrum of wavelength:value pairs";
   const Property* property = find_as<Property::Spectrum>(name, kAccepted);
   if (!property) return {};
@@ -239,6 +255,7 @@ std::vector<std::pair<double, double>> Parameters::spectrum(std::string_view nam
 }
 
 glm::dvec3 Parameters::point(std::string_view name, glm::dvec3 fallback) {
+  note(name, PluginParameter::Type::point, fmt::format("{}, {}, {}", fallback.x, fallback.y, fallback.z));
   const Property* property = find_as<Property::Vector>(name, "point, vector");
   if (!property) return fallback;
   const glm::dvec3 value = to_glm(std::get<Property::Vector>(property->value).value);
@@ -252,6 +269,7 @@ glm::dvec3 Parameters::point(std::string_view name, glm::dvec3 fallback) {
 }
 
 glm::dmat4 Parameters::transform(std::string_view name, Flat flat) {
+  note(name, PluginParameter::Type::transform);
   const Property* property = find_as<Property::Transform>(name, "transform");
   if (!property) return glm::dmat4(1);
   const glm::dmat4 matrix = to_glm(std::get<Property::Transform>(property->value));
@@ -262,6 +280,7 @@ glm::dmat4 Parameters::transform(std::string_view name, Flat flat) {
 }
 
 std::string Parameters::file(std::string_view name) {
+  note(name, PluginParameter::Type::file);
   if (!require(name, fmt::format("<string name=\"{}\" value=\"...\"/>", name))) return {};
   const Property* property = find_as<std::string>(name, "string");
   if (!property) return {};
@@ -279,6 +298,8 @@ std::string Parameters::file(std::string_view name) {
 
 std::vector<const Node::Child*> Parameters::children(std::string_view kind) {
   asked_kinds_.emplace(kind);
+  if (record_ && std::ranges::find(record_->children, kind) == record_->children.end())
+    record_->children.emplace_back(kind);
   std::vector<const Node::Child*> found;
   for (const Node::Child& child : node_.children) {
     if (child.node->kind == kind) found.push_back(&child);
@@ -295,10 +316,39 @@ const Node::Child* Parameters::child(std::string_view kind) {
 }
 
 bool Parameters::require(std::string_view name, std::string_view example) {
+  if (record_) {
+    recorded(name).is_required = true;
+    recorded(name).fallback.clear();
+  }
   if (has(name)) return true;
   asked_names_.emplace(name);
   error(name, fmt::format("{} needs a parameter '{}'", name_of(node_), name), std::string(example));
   return false;
+}
+
+PluginParameter& Parameters::recorded(std::string_view name) {
+  auto& parameters = record_->parameters;
+  const auto known = std::ranges::find(parameters, name, &PluginParameter::name);
+  if (known != parameters.end()) return *known;
+  PluginParameter& added = parameters.emplace_back();
+  added.name = name;
+  return added;
+}
+
+void Parameters::note(std::string_view name, PluginParameter::Type type, std::string fallback) {
+  if (!record_) return;
+  PluginParameter& parameter = recorded(name);
+  parameter.type = type;
+  if (!parameter.is_required) parameter.fallback = std::move(fallback);
+}
+
+void Parameters::note_range(std::string_view name, double min, double max, Ends ends) {
+  if (!record_) return;
+  PluginParameter& parameter = recorded(name);
+  // Bounds that only say what the program can calculate with are none.
+  if (min > -kMaxCoordinate) parameter.min = min;
+  if (max < kMaxCoordinate) parameter.max = max;
+  parameter.min_belongs = ends == Ends::closed, parameter.max_belongs = ends != Ends::open;
 }
 
 SourceLocation Parameters::where(std::string_view name) const {

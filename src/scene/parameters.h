@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/memory.h"
+#include "norrsken/plugins.h"
 #include "scene/description.h"
 
 namespace norrsken {
@@ -31,6 +32,9 @@ enum class Flat { no, yes };
 class Parameters {
  public:
   Parameters(const Node& node, const Description& description, const FileSystem& files, Diagnostics& diagnostics);
+
+  /// From now on, what is asked for is written there, too.
+  void record(PluginInfo& asked) { record_ = &asked; }
 
   const Node& node() const { return node_; }
   Diagnostics& diagnostics() const { return diagnostics_; }
@@ -93,6 +97,10 @@ class Parameters {
   void finish();
 
  private:
+  /// Writes down that a parameter was asked for.
+  void note(std::string_view name, PluginParameter::Type type, std::string fallback = {});
+  void note_range(std::string_view name, double min, double max, Ends ends);
+  PluginParameter& recorded(std::string_view name);
   void accept_without_effect(const BaseParameter& parameter);
   const Property* find(std::string_view name);
   const Node::Child* find_child(std::string_view name) const;
@@ -112,6 +120,7 @@ class Parameters {
   const Description& description_;
   const FileSystem& files_;
   Diagnostics& diagnostics_;
+  PluginInfo* record_ = nullptr;
   std::set<std::string, std::less<>> asked_names_, asked_kinds_;
 };
 

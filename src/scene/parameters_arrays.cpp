@@ -23,6 +23,7 @@ template std::shared_ptr<const Mesh> Parameters::shared<Mesh>(std::string_view, 
 template std::shared_ptr<const Image> Parameters::shared<Image>(std::string_view, std::string_view);
 
 std::vector<double> Parameters::numbers(std::string_view name) {
+  note(name, PluginParameter::Type::numbers);
   constexpr std::string_view kAccepted = "a string of numbers";
   const Property* property = find_as<std::string, std::shared_ptr<const FloatArray>>(name, kAccepted);
   if (!property) return {};
@@ -64,6 +65,7 @@ Array<float> Parameters::floats(std::string_view name, std::size_t per_element) 
 }
 
 Array<std::uint32_t> Parameters::indices(std::string_view name, std::size_t per_element) {
+  note(name, PluginParameter::Type::numbers);
   Array<std::uint32_t> values;
   const Property* property = find(name);
   if (property && std::holds_alternative<std::shared_ptr<const IndexArray>>(property->value)) {

@@ -82,12 +82,12 @@ class Check {
 
 /// The arrays, checked. Empty after a complaint.
 std::optional<MeshData> read_arrays(Parameters& p) {
-  const bool has_all = p.require("positions", R"(<string name="positions" value="0 0 0  1 0 0  0 1 0"/>)") &&
-                       p.require("triangles", R"(<string name="triangles" value="0 1 2"/>)");
+  p.require("positions", R"(<string name="positions" value="0 0 0  1 0 0  0 1 0"/>)");
+  p.require("triangles", R"(<string name="triangles" value="0 1 2"/>)");
   const Array<float> positions = p.floats("positions", 3), normals = p.floats("normals", 3),
                      texcoords = p.floats("texcoords", 2);
   const Array<std::uint32_t> triangles = p.indices("triangles", 3);
-  if (!has_all || positions.empty() || triangles.empty()) return std::nullopt;
+  if (positions.empty() || triangles.empty()) return std::nullopt;
   Check corners(p, "triangles"), at_normals(p, "normals"), at_texcoords(p, "texcoords");
   corners.triangles(triangles, positions.size() / 3);
   if (!normals.empty()) at_normals.numbers("components of normals", normals, positions.size());

@@ -8,8 +8,8 @@
 //                8-bit and 16-bit integers are decoded from sRGB, but those of a PNG that says that it is linear: a gAMA
 //                chunk of 1 without an sRGB chunk
 //   to_uv        transform (default identity): of texture coordinates, in x and y
-//   format       auto (default), variant or fp16, and accel (boolean): how Mitsuba stores and looks up texels; accepted
-//                and without effect
+//   format, accel  auto (default), variant or fp16, and a boolean: how Mitsuba stores and looks up texels; accepted and
+//                without effect
 // Values of an image that are out of the range of what they stand for are clamped, with a warning. So are infinite ones, at
 // 65504 (the largest of half precision), and what is no number is 0. EXR: the channels R G B, X Y Z (CIE, turned into sRGB)
 // or Y, of any layer; a warning says which others are taken for them. HDR: RGBE and XYZE, rows and columns in any order;

@@ -4,6 +4,7 @@
 #include <norrsken/image.h>
 #include <norrsken/merge.h>
 #include <norrsken/path_trace.h>
+#include <norrsken/plugins.h>
 #include <norrsken/render.h>
 #include <norrsken/scene.h>
 #include <norrsken/version.h>
@@ -99,6 +100,12 @@ void reads_from_memory() {
       "scene.xml", text, {{"sky.xml", R"(<scene version="3.0.0"><emitter type="constant"/></scene>)"}});
   expect(value_of(norrsken::Scene::load(source)).info().lights == 1, "the include is found in memory");
   expect(!norrsken::scene_formats().empty(), "formats are told");
+  bool has_fov = false;
+  for (const norrsken::PluginInfo& plugin : norrsken::plugins()) {
+    for (const norrsken::PluginParameter& parameter : plugin.parameters)
+      has_fov |= plugin.name == "perspective" && parameter.name == "fov" && parameter.unit == "degrees";
+  }
+  expect(has_fov, "plugins are told with their parameters");
 }
 
 void is_put_together() {
@@ -113,8 +120,7 @@ void is_put_together() {
   film.set("width", 8).set("height", 8);
   sensor.set("fov", 40.0).add(film);
   lamp.set("image", sky);
-  shape.set("mesh", triangle)
-      .add(Node("bsdf", "diffuse").set("reflectance", norrsken::Property::Rgb{{0.5, 0.5, 0.5}}));
+  shape.set("mesh", triangle).add(Node("bsdf", "diffuse").set("reflectance", norrsken::Property::Rgb{{0.5, 0.5, 0.5}}));
   auto root = std::make_shared<Node>("scene");
   root->add(sensor).add(lamp).add(shape);
   norrsken::Description description;

@@ -273,7 +273,7 @@ TEST(SceneViews, AnotherCameraOfAMillionTrianglesStartsAtOnce) {
   double least = 1e9;
   for (int i = 0; i < 10; ++i) {
     const auto begin = std::chrono::steady_clock::now();
-    const auto view = scene.with({.camera = {{"to_world", at(0.01 * i, 0, 0)}}});
+    const auto view = scene.with({.camera = {{"to_world", at(0.01 * i, 0, 0)}}, .width = 1024, .height = 1024});
     ASSERT_TRUE(view);
     const auto render = Render::create(*view, {.threads = 2});
     ASSERT_TRUE(render);
