@@ -32,8 +32,8 @@ struct PluginInfo {
   std::vector<std::string> children;  ///< kinds of nodes that it takes beside its parameters
 };
 
-/// All of them, kind by kind. The parameters are what the plugins ask for when they are given nothing, or what they need:
-/// there is no second list of them.
+/// All of them, kind by kind. The parameters are what the plugins ask for when they are given nothing, so there is no second
+/// list of them; a range or a fallback that depends on other parameters is the one for their fallbacks.
 std::vector<PluginInfo> plugins();
 
 }  // namespace norrsken
