@@ -43,7 +43,7 @@ test: tests  ## warnings as errors, a render, the tests, the checks, a peer's sc
 thorough: test  ## `test`, then mutants, calibration, kills, benchmarks, clang-tidy, sanitizers, fuzzing: two hours
 	cmake --preset release -DNORRSKEN_THOROUGH_TESTS=ON -DNORRSKEN_BUILD_BENCHMARKS=ON
 	cmake --build $(RELEASE) -j $(JOBS)
-	ctest --test-dir $(RELEASE) -j $(JOBS) --output-on-failure -L '^(mutants|calibration|kills|benchmarks)$$'
+	ctest --test-dir $(RELEASE) -j $(JOBS) --output-on-failure -L "$$(cat $(RELEASE)/thorough_labels)"
 	@$(MAKE) tidy sanitize fuzz-quick
 
 .PHONY: check

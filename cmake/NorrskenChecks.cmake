@@ -12,6 +12,7 @@ norrsken_script_test(check_includes ${scripts}/check_includes.py ${PROJECT_SOURC
 norrsken_script_test(promises.self_test ${scripts}/check_promises.py --self-test)
 norrsken_script_test(promises ${scripts}/check_promises.py)
 norrsken_script_test(scene_docs ${scripts}/make_scene_docs.py --check)
+norrsken_script_test(check_installed.self_test ${scripts}/check_installed.py --self-test)
 norrsken_script_test(check_symbols.self_test ${scripts}/check_symbols.py --self-test ${CMAKE_CXX_COMPILER})
 
 # Without optimisation, or instrumented, the compiler emits a copy of every inline function of the standard library:
@@ -36,6 +37,12 @@ if(TARGET norrsken AND NOT NORRSKEN_SANITIZE)
     --test-command consumer)
   set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP installed)
   set_tests_properties(consumer.build_and_run PROPERTIES FIXTURES_REQUIRED installed TIMEOUT 300)
+  # Debuggers' information names the sources.
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    norrsken_script_test(consumer.names_no_build_folder ${scripts}/check_installed.py ${prefix} ${PROJECT_SOURCE_DIR}
+      ${PROJECT_BINARY_DIR})
+    set_tests_properties(consumer.names_no_build_folder PROPERTIES FIXTURES_REQUIRED installed)
+  endif()
 
   # With the sources as a part of it, which takes as long to build as the library does: otherwise it is configured alone.
   set(part_of_it -S ${PROJECT_SOURCE_DIR}/tests/consumer -B ${PROJECT_BINARY_DIR}/consumer/with_sources

@@ -43,6 +43,9 @@ endfunction()
 
 # What takes minutes, or asks the machine's clock: built with NORRSKEN_THOROUGH_TESTS only.
 set(NORRSKEN_THOROUGH_LABELS mutants calibration kills benchmarks)
+list(JOIN NORRSKEN_THOROUGH_LABELS "|" thorough_labels)
+# For `ctest -L`, as `make thorough` calls it.
+file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/thorough_labels" CONTENT "^(${thorough_labels})$" @ONLY)
 
 # GoogleTest's headers take longer to read than most tests take to compile: they are read once for all tests.
 set(norrsken_test_options $<$<CONFIG:Release>:-O1>

@@ -6,8 +6,8 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config python3
-  libembree-dev libopenimageio-dev libopenexr-dev libpng-dev libjpeg-dev zlib1g-dev
-  libpugixml-dev libfmt-dev libspdlog-dev libglm-dev libhwy-dev libxxhash-dev
+  libembree-dev libopenexr-dev libpng-dev libjpeg-dev libtiff-dev zlib1g-dev
+  libpugixml-dev libfmt-dev libglm-dev libhwy-dev libxxhash-dev
   libcli11-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )

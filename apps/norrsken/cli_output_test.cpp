@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli_testing.h"
@@ -9,10 +10,43 @@
 namespace norrsken::cli {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
+
+TEST_F(Cli, TerminalsDoNotObeyWhatSomebodyElseWrote) {
+  // Escape, the same in eight bits, delete, bell, and half a character.
+  const std::string bad = "\x1b[31m\xc2\x9b\x7f\a\xc3";
+  write("s.xml", R"(<scene version="3.0.0"><default name="a" value="1"/><sensor type="perspective"/>
+  <shape type="sphere" id="$a"><float name="radius" value="2"/></shape><emitter type="constant"/></scene>)");
+  fs::copy_file(folder_ / "s.xml", folder_ / (bad + ".xml"));
+  write(bad + ".exr", "no image");
+  const std::vector<std::vector<std::string>> commands = {
+      {"info", "s.xml", "-Da=" + bad},
+      {"info", "s.xml", "-D" + bad + "=1"},
+      {"info", bad + ".xml"},
+      {"info", bad},
+      {"info", "s.xml", "--sensor", bad},
+      {"render", bad + ".xml", "--size", "4x4", "--spp", "1"},
+      {"render", "s.xml", "-Da=" + bad, "--size", "4x4", "--spp", "1", "-o", bad + ".png", "--json"},
+      {"info", bad + ".png"},
+      {"info", "s.xml", "-Da=" + bad, "--json"},
+      {"compare", bad + ".exr", bad + ".exr"},
+      {"merge", bad, "-o", "x.exr"},
+      {bad},
+      {"render", bad, "--" + bad}};
+  for (const auto& command : commands) {
+    const ProcessResult result = run(command);
+    for (const std::string* text : {&result.out, &result.err}) {
+      for (const char* control : {"\x1b", "\xc2\x9b", "\x7f", "\a"})
+        EXPECT_THAT(*text, Not(HasSubstr(control))) << command[0] << " " << command.size();
+    }
+    if (command.back() == "--json") static_cast<void>(parse_lines(result.out));  // throws if it is none
+  }
+}
 
 /// A limit on the size of files (SIGXFSZ) stands in for a disk that is full.
 TEST_F(Cli, OneLostOutputDoesNotCostTheOthers) {

@@ -243,7 +243,7 @@ TEST_F(Cli, InterruptSavesAndSays) {
     const ProcessResult result = run(std::vector<std::string>{"render", "hexagon_room", "-o", "part.exr"} + kEndless,
                                      {.signals = {signal_number}});
     EXPECT_EQ(result.status, 77) << result.err;
-    EXPECT_THAT(result.err, AllOf(HasSubstr("stopping; writing what there is (Ctrl-C again discards it)\n"),
+    EXPECT_THAT(result.err, AllOf(HasSubstr("stopping; writing what there is (Ctrl-C again before that discards it)\n"),
                                   HasSubstr("wrote part.exr"),
                                   HasSubstr("of 1000000 samples per pixel; with --checkpoint FILE, the same command "
                                             "would go on\n")));

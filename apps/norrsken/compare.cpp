@@ -8,6 +8,7 @@
 #include "console.h"
 #include "file_use.h"
 #include "norrsken/compare.h"
+#include "norrsken/merge.h"
 #include "session.h"
 #include "text_format.h"
 
@@ -28,7 +29,11 @@ Image read_image_or_tell(const std::string& path, const std::shared_ptr<MemoryBu
     for (const Channel& channel : image->channels) memory->take(channel.values.size() * sizeof(float));
     return *std::move(image);
   }
-  print_error(image.error());
+  print_error(is_checkpoint(path)
+                  ? fmt::format("'{0}' is a checkpoint, not an image: 'norrsken merge {0} -o image.exr --layers' makes "
+                                "one of it",
+                                path)
+                  : image.error());
   if (result == ExitStatus::done) result = unreadable_input_status(path);
   return {};
 }

@@ -19,6 +19,29 @@ constexpr std::string_view kRed = "\x1b[1;31m", kYellow = "\x1b[1;33m", kPlain =
 
 void write_stderr(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
+void write_line(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fputc('\n', stdout);
+}
+
+/// JSON escapes the control characters of ASCII; DEL and U+0080 to U+009F are ones, too, and may as well be escaped.
+std::string with_escaped_controls(const std::string& json) {
+  std::string escaped;
+  escaped.reserve(json.size());
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(json[i]);
+    const auto next = i + 1 < json.size() ? static_cast<unsigned char>(json[i + 1]) : 0u;
+    const bool is_c1 = byte == 0xc2 && next >= 0x80 && next < 0xa0;
+    if (byte == 0x7f || is_c1) {
+      escaped += fmt::format("\\u{:04x}", is_c1 ? next : byte);
+      i += is_c1 ? 1 : 0;
+    } else {
+      escaped += json[i];
+    }
+  }
+  return escaped;
+}
+
 /// `text` with the first `word` coloured, if stderr shows colour.
 std::string emphasize(std::string text, std::string_view word, std::string_view color) {
   const auto at = text.find(word);
@@ -65,14 +88,14 @@ bool stderr_has_color() {
 }
 
 void print_error(std::string_view message) {
-  write_stderr(emphasize(fmt::format("norrsken: error: {}\n", message), "error:", kRed));
+  write_stderr(emphasize(fmt::format("norrsken: error: {}\n", safe_to_print(message)), "error:", kRed));
 }
 
 void print_warning(std::string_view message) {
-  write_stderr(emphasize(fmt::format("norrsken: warning: {}\n", message), "warning:", kYellow));
+  write_stderr(emphasize(fmt::format("norrsken: warning: {}\n", safe_to_print(message)), "warning:", kYellow));
 }
 
-void print_note(std::string_view message) { write_stderr(fmt::format("{}\n", message)); }
+void print_note(std::string_view message) { write_stderr(safe_to_print(message) + '\n'); }
 
 void print_diagnostics(const Diagnostics& diagnostics, bool with_warnings) {
   for (const Diagnostic& diagnostic : diagnostics.all()) {
@@ -86,13 +109,10 @@ void print_diagnostics(const Diagnostics& diagnostics, bool with_warnings) {
   }
 }
 
-void print_line(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fputc('\n', stdout);
-}
+void print_line(std::string_view text) { write_line(safe_to_print(text)); }
 
 void print_json(const nlohmann::ordered_json& object) {
-  print_line(object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  write_line(with_escaped_controls(object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
   std::fflush(stdout);
 }
 

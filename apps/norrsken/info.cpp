@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "console.h"
 #include "image_info.h"
+#include "norrsken/merge.h"
 #include "session.h"
 #include "text_format.h"
 
@@ -28,6 +29,8 @@ void print_as_json(const std::string& scene, const SceneInfo& info) {
                                    {"width", info.width},
                                    {"height", info.height},
                                    {"samples_per_pixel", info.samples_per_pixel},
+                                   {"sensor", info.sensor},
+                                   {"sensor_id", info.sensor_id},
                                    {"sampler", info.sampler},
                                    {"integrator", info.integrator},
                                    {"max_depth", info.max_depth},
@@ -64,6 +67,8 @@ void print_as_text(const std::string& scene, const SceneInfo& info) {
   print_line(scene);
   row("image", fmt::format("{} x {} pixels, {} per pixel ({})", info.width, info.height,
                            format_plural(info.samples_per_pixel, "sample"), info.sampler));
+  row("sensor",
+      info.sensor_id.empty() ? fmt::to_string(info.sensor) : fmt::format("{} ({})", info.sensor, info.sensor_id));
   row("integrator", fmt::format("{}, max_depth {}{}, rr_depth {}, {} per hit", info.integrator, info.max_depth,
                                 info.max_depth < 0 ? " (unbounded)" : "", info.rr_depth,
                                 format_plural(info.emitter_samples, "shadow ray")));
@@ -119,7 +124,13 @@ ExitStatus tell_of_image(const Arguments& arguments) {
 }
 
 ExitStatus tell(const Arguments& arguments) {
-  if (has_image_header(arguments.scene.scene)) return tell_of_image(arguments);
+  const std::string& name = arguments.scene.scene;
+  if (has_image_header(name)) return tell_of_image(arguments);
+  if (is_checkpoint(name))
+    throw Failure(ExitStatus::data_error,
+                  fmt::format("'{0}' is a checkpoint, neither a scene nor an image: 'norrsken merge {0} -o image.exr' "
+                              "makes an image of it, which says how it was made",
+                              name));
   LoadOptions options = arguments.scene.load_options();
   options.reserve_film = false;
   const SceneInfo info = load_scene(arguments.scene.scene, options).info();

@@ -19,11 +19,13 @@ extern "C" void norrsken_on_interrupt(int signal_number) {
   const bool again = is_from_a_person(signal_number) && g_insisted.exchange(true);
   g_requested.store(true);
   if (g_saving.load()) return;
+  Render* render = g_target.load();
   if (again) {
+    if (render != nullptr && !render->is_sampling()) return;  // it is about to be saved
     // Blocked until this handler returns, and then deadly.
     std::signal(signal_number, SIG_DFL);
     std::raise(signal_number);
-  } else if (Render* render = g_target.load()) {
+  } else if (render != nullptr) {
     render->cancel();
   }
 }

@@ -25,7 +25,7 @@ class SignalHandlers {
 };
 
 /// While it lives, the first signal cancels `render`, also one that came earlier, and a second SIGINT, SIGTERM or SIGHUP
-/// kills the program.
+/// kills the program as long as the rendering takes samples: not while it looks at them, and not once it is over.
 /// One at a time.
 class InterruptGuard {
  public:

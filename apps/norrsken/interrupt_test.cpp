@@ -10,8 +10,10 @@ namespace {
 struct FakeRender final : Render {
   RenderStatistics run(const std::function<void(const RenderProgress&)>&) override { return {}; }
   void cancel() noexcept override { ++cancelled; }
+  bool is_sampling() const noexcept override { return sampling; }
   Image image(bool) const override { return {}; }
   int cancelled = 0;
+  bool sampling = true;
 };
 
 // Every case is a process of its own: a caught signal is remembered for as long as the program runs.
@@ -30,6 +32,16 @@ void interrupt_twice() {
   std::raise(SIGTERM);
   std::raise(SIGINT);
   finish(false);
+}
+
+void interrupt_again_when_no_samples_are_taken() {
+  FakeRender render;
+  const InterruptGuard guard(render);
+  std::raise(SIGINT);
+  render.sampling = false;
+  std::raise(SIGINT);
+  std::raise(SIGTERM);
+  finish(render.cancelled == 1);
 }
 
 void interrupt_while_saving() {
@@ -89,6 +101,7 @@ TEST(InterruptDeathTest, WarningsOfBatchSystemsDiscardNothingHoweverOftenTheyCom
 
 TEST(InterruptDeathTest, SavingIsNotInterrupted) {
   EXPECT_EXIT(interrupt_while_saving(), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(interrupt_again_when_no_samples_are_taken(), testing::ExitedWithCode(0), "");
 }
 
 TEST(InterruptDeathTest, WhatCameWhileSavingCancelsTheNextRendering) {

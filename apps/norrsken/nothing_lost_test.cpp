@@ -214,6 +214,18 @@ TEST_F(NothingLost, ACheckpointBecomesAnImageWhileItIsWritten) {
   EXPECT_EQ(metadata_of("m.exr")["norrsken.relative_error"], metadata_of("a.exr")["norrsken.relative_error"]);
 }
 
+TEST_F(NothingLost, ImpatienceDiscardsNoLargeImage) {
+  // What has been rendered is saved and summed up for a second or so between the two signals and the files.
+  const Words large = {"render",       "hexagon_room", "-Dshadow_rays=1",    "--size", "2000x1000", "--spp", "1000000",
+                       "--checkpoint", "c.ckpt",       "--checkpoint-every", "0.05s",  "-o",        "a.png"};
+  const ProcessResult result =
+      run(large, {.signals = {SIGINT, SIGINT, SIGTERM}, .signal_delay = milliseconds(50), .signal_when = [this] {
+                    return fs::exists(folder_ / "c.ckpt");
+                  }});
+  EXPECT_EQ(result.status, 77) << result.err;
+  EXPECT_TRUE(fs::exists(folder_ / "a.png"));
+}
+
 TEST_F(NothingLost, ImagesSayHowTheyWereMade) {
   const Words command =
       room_ + Words{"--spp", "4", "--seed", "7", "-Dlight=point", "-o", "a.exr", "-o", "a.png", "--json"};
@@ -240,6 +252,42 @@ TEST_F(NothingLost, ImagesSayHowTheyWereMade) {
   EXPECT_EQ(run({"info", "a.png", "-Dlight=point"}).status, 64);
   write("cut.exr", read("a.exr").substr(0, 300));
   EXPECT_EQ(run({"info", "cut.exr"}).status, 65);
+}
+
+TEST_F(NothingLost, ImagesSayWhichSensorTheyAreOf) {
+  write("two.xml", R"(<scene version="3.0.0"><emitter type="constant"/><shape type="sphere"/>
+  <sensor type="perspective"><film type="hdrfilm"/></sensor><sensor type="perspective" id="left"><film type="hdrfilm"/>
+  </sensor></scene>)");
+  const auto sensor_of = [&](const Words& choice) {
+    const Words command = {"render", "two.xml", "--size", "4x4", "--spp", "1", "-o", "a.png", "-o", "a.exr"};
+    EXPECT_EQ(run(command + choice).status, 0);
+    EXPECT_EQ(metadata_of("a.png")["norrsken.sensor"], metadata_of("a.exr")["norrsken.sensor"]);
+    return metadata_of("a.exr")["norrsken.sensor"].get<std::string>();
+  };
+  EXPECT_EQ(sensor_of({}), "0");
+  EXPECT_EQ(sensor_of({"--sensor", "1"}), "1 left");
+  EXPECT_EQ(sensor_of({"--sensor", "left"}), "1 left");
+  const json info = parse_lines(run({"info", "two.xml", "--sensor", "left", "--json"}).out).at(0);
+  EXPECT_EQ(info["sensor"], 1);
+  EXPECT_EQ(info["sensor_id"], "left");
+  EXPECT_THAT(run({"info", "two.xml", "--sensor", "1"}).out, HasSubstr("\n  sensor      1 (left)\n"));
+}
+
+TEST_F(NothingLost, ACheckpointIsNoImageAndSaysHowItBecomesOne) {
+  const Words finished = room_ + Words{"--spp", "2", "--checkpoint", "c.ckpt", "-o", "a.exr"};
+  ASSERT_EQ(run(finished).status, 0);
+  const ProcessResult compared = run({"compare", "a.exr", "c.ckpt"});
+  EXPECT_EQ(compared.status, 65);
+  EXPECT_EQ(compared.err,
+            "norrsken: error: 'c.ckpt' is a checkpoint, not an image: 'norrsken merge c.ckpt -o image.exr --layers' "
+            "makes one of it\n");
+  const ProcessResult told = run({"info", "c.ckpt"});
+  EXPECT_EQ(told.status, 65);
+  EXPECT_THAT(told.err, HasSubstr("'norrsken merge c.ckpt -o image.exr' makes an image of it"));
+  const ProcessResult again = run(finished);
+  EXPECT_EQ(again.status, 0);
+  EXPECT_THAT(again.err, AllOf(HasSubstr("no samples were left to take: the checkpoint holds 6.14 k, "),
+                               Not(HasSubstr("Msamples/s")), Not(HasSubstr("0 threads")), HasSubstr("wrote a.exr")));
 }
 
 TEST_F(NothingLost, FilesOfTheSameSamplesDifferInDateAndSecondsAlone) {

@@ -132,7 +132,6 @@ void tell_dropped(const Arguments& arguments, const RenderStatistics& statistics
 
 /// Writes every file that can be written, tells what is wrong with the others, and returns those written.
 std::vector<std::string> write_outputs(const Arguments& arguments, const Render& rendering) {
-  const SavingGuard guard;
   const Image image = rendering.image(arguments.layers || arguments.features);
   std::vector<std::string> written;
   for (const std::string& path : arguments.outputs) {
@@ -175,14 +174,20 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
     return;
   }
   if (arguments.quiet) return;
+  const bool was_done = statistics.samples_resumed > 0 && statistics.samples_resumed == statistics.samples;
   std::string text = fmt::format("{} samples in {}, {} Msamples/s, {} Mrays/s", format_count(taken),
                                  format_duration(statistics.seconds), format_digits(taken / seconds / 1e6),
                                  format_digits(rays / seconds / 1e6));
-  if (statistics.samples_resumed > 0)
+  if (was_done) {
+    text = fmt::format("no samples were left to take: the checkpoint holds {}",
+                       format_count(static_cast<double>(statistics.samples)));
+  } else if (statistics.samples_resumed > 0) {
     text += fmt::format(", {} from the checkpoint", format_count(static_cast<double>(statistics.samples_resumed)));
+  }
   text += ", " + error_text(statistics.error, samples / pixels);
-  text += fmt::format(" ({}, {}, {}, {})", statistics.isa, format_plural(statistics.lanes, "lane"),
-                      format_plural(statistics.threads, "thread"), statistics.accelerator);
+  if (!was_done)
+    text += fmt::format(" ({}, {}, {}, {})", statistics.isa, format_plural(statistics.lanes, "lane"),
+                        format_plural(statistics.threads, "thread"), statistics.accelerator);
   print_note(text);
   if (!written.empty()) print_note(fmt::format("wrote {}", fmt::join(written, ", ")));
   if (!statistics.cancelled) return;
@@ -284,7 +289,7 @@ ExitStatus render(Arguments arguments) {
   const RenderStatistics statistics = rendering->run([&](const RenderProgress& progress) {
     meter.update(progress);
     if (!progress.checkpoint_error.empty()) meter.warn(progress.checkpoint_error);
-    if (interrupt_requested()) meter.announce("stopping; writing what there is (Ctrl-C again discards it)");
+    if (interrupt_requested()) meter.announce("stopping; writing what there is (Ctrl-C again before that discards it)");
   });
   meter.finish();
 
@@ -356,7 +361,8 @@ void add_render_command(CLI::App& app, Action& action) {
   command->add_flag("--json", arguments->json, "Print one JSON object a line on stdout: start, progress, done");
   command->footer(
       "Ctrl-C, SIGTERM or SIGHUP stops the rendering, writes what there is and exits with status 77; a second one\n"
-      "discards it (not the last checkpoint). SIGUSR1, SIGUSR2, SIGXCPU and SIGALRM, with which batch systems warn, "
+      "before that discards it (not the last checkpoint). SIGUSR1, SIGUSR2, SIGXCPU and SIGALRM, with which batch "
+      "systems warn, "
       "stop\n"
       "it likewise, and discard nothing. The same scene, seed and options give the same image for any number of "
       "threads.\n\n"

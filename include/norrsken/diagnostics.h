@@ -86,6 +86,10 @@ std::string place_text(const SourceLocation& location);
 /// shown, with "..." for the rest.
 std::string to_text(const Diagnostic& diagnostic);
 
+/// `text` with control characters but line breaks, and what is no UTF-8, replaced by U+FFFD: a terminal shows it and does
+/// not obey it.
+std::string safe_to_print(std::string_view text);
+
 /// The end of a complaint about an unknown word: ", did you mean 'WORD'?" with the nearest of `words`, or nothing if
 /// none is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& words);

@@ -56,10 +56,11 @@ struct [[nodiscard]] IoStatus {
 /// Errors: unknown extension, unwritable folder, full disk, size beyond the format, no R, G, B for PNG or JPEG.
 IoStatus write_image(const std::string& path, const Image& image, const ToneMapping& tone = {});
 
-/// Reads EXR, PNG, JPEG, HDR, PFM and its relatives, BMP, TGA and TIFF as float channels; 8-bit colour is decoded to
-/// linear, alpha is left as the file has it (not multiplied). Of several images in a file the first counts. Errors: not
-/// a regular file, above 4 GiB, unknown or damaged, more than 2^30 values, or than is left of `memory`, the file and its
-/// decoding included; empty: MemoryBudget::of_machine(). The image itself is its owner's to count.
+/// Reads EXR, PNG, JPEG, HDR, PFM, PPM, PGM, PBM, BMP, TGA and TIFF, told by their contents, as linear float channels: integers of
+/// up to 16 bits are decoded from sRGB, those of 32 are their values, alpha is left as it is (not multiplied). Of several images
+/// the first counts, of an EXR its data window; orientation tags are not heeded. Errors: not a regular file, above 4 GiB, unknown,
+/// damaged or cut off, more than 2^30 values, or than is left of `memory`, the file and its decoding included; empty:
+/// MemoryBudget::of_machine(). The image itself is its owner's to count.
 Result<Image> read_image(const std::string& path, const std::shared_ptr<MemoryBudget>& memory = {});
 
 /// The same within so many bytes; `image` changes on success only.

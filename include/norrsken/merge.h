@@ -40,4 +40,7 @@ struct MergedRender {
 Result<MergedRender> merge_renders(const std::vector<std::string>& files, bool layers = false,
                                    std::shared_ptr<MemoryBudget> memory = {});
 
+/// Whether the file is a checkpoint, of this version of the program or of another, whole or damaged.
+bool is_checkpoint(const std::string& path);
+
 }  // namespace norrsken

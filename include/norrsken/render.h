@@ -112,6 +112,9 @@ class Render {
     return run(RenderCallbacks{std::move(on_progress), {}});
   }
   virtual void cancel() noexcept = 0;
+  /// Whether samples are being taken at this moment. Otherwise there is nothing to cancel: what they have come to is summed
+  /// up or saved. From any thread, and from signal handlers.
+  virtual bool is_sampling() const noexcept = 0;
 
   /// What has been rendered by now: R, G, B; `layers` adds `samples`, `variance.R/G/B` (of the mean),
   /// `error.R/G/B` (its root; both NaN while a pixel has too few samples to tell), `interval.R/G/B` (half the width of the

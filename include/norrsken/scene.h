@@ -96,6 +96,8 @@ struct SceneInfo {
   double bounds_min[3] = {}, bounds_max[3] = {};
   int width = 0, height = 0, samples_per_pixel = 0, max_depth = 0, rr_depth = 0, emitter_samples = 0;
   std::string integrator, sampler, accelerator;
+  int sensor = 0;         ///< which of the scene's, in the file's order
+  std::string sensor_id;  ///< empty if it has none
 
   /// Bytes, as the budget counts them.
   struct Memory {

@@ -190,6 +190,17 @@ std::string place_text(const SourceLocation& location) {
   return text;
 }
 
+std::string safe_to_print(std::string_view text) {
+  std::string safe;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    safe += printable(text.substr(begin, end - begin));
+    if (end == text.size()) return safe;
+    safe += '\n';
+    begin = end + 1;
+  }
+}
+
 std::string to_text(const Diagnostic& diagnostic) {
   const SourceLocation& location = diagnostic.location;
   std::string text;

@@ -93,6 +93,11 @@ std::optional<std::string> closest_word(std::string_view word, const std::vector
   return best;
 }
 
+std::string with_article(std::string_view noun) {
+  const bool vowel = noun == "rgb" || std::string_view("aeio").find(noun.substr(0, 1)) != std::string_view::npos;
+  return std::string(vowel ? "an " : "a ").append(noun);
+}
+
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& words) {
   const auto closest = closest_word(word, words);
   return closest ? std::string(", did you mean '").append(*closest).append("'?") : std::string();

@@ -20,6 +20,9 @@ struct TextPiece {
 /// The pieces between any number of `separators`; none is empty.
 std::vector<TextPiece> split(std::string_view text, std::string_view separators);
 
+/// "a shape", "an emitter".
+std::string with_article(std::string_view noun);
+
 /// `words` with `separator` between them.
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 

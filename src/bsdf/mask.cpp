@@ -1,7 +1,7 @@
 // mask: host side.
 //
 // Parameters
-//   opacity  number or texture, 0 to 1 (default 0.5): share of the light that meets what is inside; the rest passes
+//   opacity  number or texture, 0 to 1, else clamped with a warning (default 0.5): share of the light that meets what is inside; the rest passes
 // Children
 //   bsdf     one: what there is where it is not a hole
 // Stored, for each side: opacity (2 floats), the word inside, the word of `null`.
@@ -12,7 +12,7 @@
 namespace norrsken {
 
 Material compile_bsdf_mask(Parameters& p, Builder& builder) {
-  const ScalarParameter opacity = builder.scalar(p, "opacity", 0.5, 0, 1);
+  const ScalarParameter opacity = builder.share(p, "opacity", 0.5);
   const auto inside = nested_bsdfs(p, builder, 1);
   builder.describe(p.node(), opacity.texture ? "opacity from a texture" : fmt::format("opacity {:.3g}", opacity.value));
   if (inside.empty()) return {};

@@ -2,8 +2,7 @@
 // Parameters  none
 // Measure     delta
 // Source      none needed
-// Departures  Mitsuba's `path` does not see emitters on such surfaces from the camera and in mirrors, though it does what they
-//             light; here they are seen, as by Mitsuba's `volpath` and `direct`
+// Departures  see null.cpp
 #pragma once
 
 #include "bsdf/bsdf.h"

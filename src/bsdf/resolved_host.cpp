@@ -22,6 +22,13 @@ std::vector<Material> nested_bsdfs(Parameters& p, Builder& builder, std::size_t 
 
 std::optional<PerturbedBlocks> perturbed_blocks(Parameters& p, Builder& builder) {
   std::uint32_t flags = p.boolean("flip_invalid_normals", true) ? kPerturbFlips : 0u;
+  if (flags != 0 && builder.tables().integrator.from_lights) {
+    builder.diagnostics().warning(
+        p.node().location,
+        "normals that turn away are folded back by where the light is, where 'path' folds them by the viewer: with "
+        "integrator 'ptracer' the image is another one, mostly brighter",
+        "<boolean name=\"flip_invalid_normals\" value=\"false\"/>, or another integrator");
+  }
   if (p.boolean("use_shadowing_function", true)) flags |= kPerturbShadows;
   const auto inside = nested_bsdfs(p, builder, 1);
   if (inside.empty()) return std::nullopt;

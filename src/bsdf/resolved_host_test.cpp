@@ -67,7 +67,7 @@ TEST(MaskHost, Refusals) {
   EXPECT_THAT(messages("mask", ""), ElementsAre("error: bsdf 'mask' has no bsdfs inside [one bsdf]"));
   EXPECT_THAT(messages("mask", kDiffuse + kNull), ElementsAre("error: bsdf 'mask' has 2 bsdfs inside [one bsdf]"));
   EXPECT_THAT(messages("mask", R"(<float name="opacity" value="1.5"/>)" + kDiffuse),
-              ElementsAre("error: 'opacity' is 1.5 [a number from 0 to 1]"));
+              ElementsAre("warning: 'opacity' is 1.5, which is taken for 1 [a number from 0 to 1]"));
   EXPECT_THAT(messages("mask", R"(<string name="opacity" value="1"/>)" + kDiffuse),
               ElementsAre("error: 'opacity' is a string [float, rgb, spectrum]"));
   EXPECT_THAT(messages("mask", R"(<float name="opacty" value="1"/>)" + kDiffuse),
@@ -93,7 +93,7 @@ TEST(BlendHost, Refusals) {
   EXPECT_THAT(messages("blendbsdf", weight + kDiffuse),
               ElementsAre("error: bsdf 'blendbsdf' has 1 bsdf inside [two bsdfs]"));
   EXPECT_THAT(messages("blendbsdf", R"(<float name="weight" value="-1"/>)" + kDiffuse + kNull),
-              ElementsAre("error: 'weight' is -1 [a number from 0 to 1]"));
+              ElementsAre("warning: 'weight' is -1, which is taken for 0 [a number from 0 to 1]"));
   EXPECT_THAT(messages("blendbsdf", R"(<string name="weight" value="a"/>)" + kDiffuse + kNull),
               ElementsAre("error: 'weight' is a string [float, rgb, spectrum]"));
   EXPECT_THAT(messages("blendbsdf", weight + kDiffuse + kNull + R"(<float name="opacity" value="1"/>)"),
@@ -128,6 +128,23 @@ TEST(NormalMapHost, Refusals) {
   EXPECT_THAT(messages("normalmap", map + R"(<float name="scale" value="1"/>)" + kDiffuse),
               ElementsAre("error: unused parameter 'scale' of bsdf 'normalmap' "
                           "[flip_invalid_normals, normalmap, use_shadowing_function]"));
+}
+
+TEST(NormalMapHost, SaysThatPathsFromTheLightsFoldNormalsOtherwise) {
+  const std::string scene = kSensor + kEmitter + R"(<shape type="sphere">)";
+  const auto told = [&](const std::string& integrator, const std::string& flips) {
+    return compile_elements("<integrator type=\"" + integrator + "\"/>" + scene +
+                            adapter("normalmap", R"(<rgb name="normalmap" value="0.5, 0.5, 1"/>)" + flips + kDiffuse) +
+                            "</shape>")
+        .messages();
+  };
+  const std::string off = R"(<boolean name="flip_invalid_normals" value="false"/>)";
+  EXPECT_THAT(told("ptracer", ""),
+              ElementsAre("warning: normals that turn away are folded back by where the light is, where 'path' folds "
+                          "them by the viewer: with integrator 'ptracer' the image is another one, mostly brighter "
+                          "[<boolean name=\"flip_invalid_normals\" value=\"false\"/>, or another integrator]"));
+  EXPECT_THAT(told("ptracer", off), IsEmpty());
+  EXPECT_THAT(told("path", ""), IsEmpty());
 }
 
 TEST(NormalMapHost, AsManyInsideEachOtherAsAHitRemembers) {

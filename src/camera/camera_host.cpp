@@ -13,7 +13,8 @@ void store(float (&out)[3], const glm::dvec3& v) {
 
 void read_clip_planes(Parameters& p, CameraRecord& camera) {
   const double near_clip = p.number("near_clip", 1e-2, 0, kMaxCoordinate, Ends::open_below);
-  const double far_clip = p.number("far_clip", 1e4, 0, kMaxCoordinate, Ends::open_below);
+  constexpr double kFarthest = 8 * kMaxCoordinate;  // no two points are so far apart
+  const double far_clip = p.number_clamped("far_clip", 1e4, -kFarthest, kFarthest, Diagnostic::Severity::note);
   if (near_clip >= far_clip) {
     p.error(p.has("near_clip") ? "near_clip" : "far_clip",
             fmt::format("'near_clip' is {}, but 'far_clip' is {}", near_clip, far_clip),

@@ -132,6 +132,10 @@ TEST(Cameras, ThinLensNeedsALens) {
 TEST(Cameras, OrthographicTakesNoAngle) {
   EXPECT_THAT(compile("orthographic", number("fov", "40")).messages(),
               ElementsAre("error: unused parameter 'fov' of sensor 'orthographic' [far_clip, near_clip, to_world]"));
+  const Compiled farthest = compile("perspective", number("far_clip", "3.4e38"));
+  EXPECT_THAT(farthest.messages(),
+              ElementsAre("note: 'far_clip' is 3.4e+38, which is taken for 8e+12 [a number of at most 8e+12]"));
+  EXPECT_FLOAT_EQ(farthest.tables().camera.far_clip, 8e12f);
   EXPECT_THAT(compile("orthographic", number("near_clip", "3") + number("far_clip", "2")).messages(),
               ElementsAre("error: 'near_clip' is 3, but 'far_clip' is 2 [a near_clip smaller than the far_clip]"));
 }

@@ -21,14 +21,15 @@ namespace {
 /// Adapters within adapters: far more than any scene needs, far fewer than the stack holds.
 constexpr int kMaxBsdfDepth = 64;
 
-/// Sensors and integrators.
-Description outline_of(const Description& description) {
+/// Sensors, which a scene without any has by then, and integrators.
+Description outline_of(const Description& description, const std::optional<Node>& default_sensor) {
   auto root = std::make_shared<Node>();
   root->kind = description.scene->kind;
   root->location = description.scene->location;
   for (const Node::Child& child : description.scene->children) {
     if (child.node->kind == "sensor" || child.node->kind == "integrator") root->children.push_back(child);
   }
+  if (default_sensor) root->add(*default_sensor);
   return {std::move(root), description.search_paths, description.parameters};
 }
 
@@ -211,19 +212,25 @@ LoadedScene Builder::build(const LoadOptions& options) {
   const std::set<const Node*> inside = nodes_inside_of_others(root);
   Parameters p = parameters(root);
   compile_frame(p, inside, view_of(options), options.reserve_film);
-  for (const Node::Child* child : p.children("bsdf")) bsdf(*child->node);
-  for (const char* kind : {"spectrum", "texture"}) {
+  const std::set<const Node*> in_use = nodes_in_use(root);
+  const auto for_each = [&](const char* kind, auto&& compile_it) {
     for (const Node::Child* child : p.children(kind)) {
-      if (!is_constant_spectrum(*child->node)) texture(*child->node);
+      if (in_use.contains(child->node.get()) || is_supported(*child->node, diagnostics_)) compile_it(*child->node);
     }
+  };
+  for_each("bsdf", [&](const Node& node) { bsdf(node); });
+  for (const char* kind : {"spectrum", "texture"}) {
+    for_each(kind, [&](const Node& node) {
+      if (!is_constant_spectrum(node)) texture(node);
+    });
   }
-  const auto shapes = p.children("shape");
-  for (const Node::Child* child : shapes) compile_shape(*child->node);
+  for_each("shape", [&](const Node& node) { compile_shape(node); });
   for (const Node* emitter : emitters_of_scene(p, inside)) compile_emitter(*emitter, kNone);
   take_definitions(p, inside);
   p.finish();
+  compile_default_camera();
   if (!diagnostics_.has_errors()) {
-    if (shapes.empty()) diagnostics_.warning(root.location, "the scene has no shape");
+    if (p.children("shape").empty()) diagnostics_.warning(root.location, "the scene has no shape");
     if (tables().lights.empty()) diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
     tell_what_is_beyond_view();
   }
@@ -233,7 +240,7 @@ LoadedScene Builder::build(const LoadOptions& options) {
   summarise();
   scene_.memory = MemoryScope::current();
   scene_.file = root.location.file;
-  scene_.outline = outline_of(description_);
+  scene_.outline = outline_of(description_, default_sensor_);
   scene_.view = view_of(options);
   return std::move(scene_);
 }

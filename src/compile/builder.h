@@ -115,6 +115,8 @@ class Builder {
                        bool emission = false);
   ScalarParameter scalar(Parameters& p, std::string_view name, double fallback, double min, double max,
                          Ends ends = Ends::closed);
+  /// A share from 0 to 1: what is out of that range is brought into it, with a warning.
+  ScalarParameter share(Parameters& p, std::string_view name, double fallback);
   /// The texture of a `texture` node; one that several parameters refer to is compiled once.
   Texture texture(const Node& node);
   /// The texture of parameter `name` if its values are in range; else a warning, and one whose values are clamped. What was
@@ -169,9 +171,12 @@ class Builder {
   /// Integrator and sensor; `reserve`: see measure_film.
   void compile_frame(Parameters& scene, const std::set<const Node*>& inside, const ViewOptions& view, bool reserve);
   void compile_sensor(Parameters& scene, const ViewOptions& view, bool reserve);
-  /// The sensor that is chosen, with what `view` says otherwise of it; null after a complaint.
+  /// The sensor that is chosen, with what `view` says otherwise of it; null if there is none, or after a complaint.
   std::shared_ptr<const Node> sensor_node(Parameters& scene, const ViewOptions& view);
-  void override_samples_per_pixel(const ViewOptions& view);
+  void compile_sampler(Parameters& sensor, const ViewOptions& view);
+  void compile_camera(Parameters& sensor);
+  /// That of a scene without a sensor, once its bounds are known.
+  void compile_default_camera();
   /// `place`: where the film's size comes from.
   FilmSettings film(Parameters& sensor, const ViewOptions& view, SourceLocation& place);
   /// How much memory film and image take; `reserve`: which stays free for them while the scene is loaded.
@@ -217,6 +222,7 @@ class Builder {
   std::optional<Material> default_material_;
   bool is_frame_alone_ = false;
   std::shared_ptr<const Node> sensor_;  ///< that is used
+  std::optional<Node> default_sensor_;  ///< of a scene that has none
   bool is_whole_ = true;  ///< whether the scene was read without errors: what is missing is not in the file
   Variation variation_ = Variation::none;  ///< of what is being compiled
   int bsdf_depth_ = 0;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "compile/builder.h"
+#include "compile/default_sensor.h"
 #include "compile/plugins.h"
 #include "compile/scene_children.h"
 #include "scene/within_memory.h"
@@ -186,7 +187,9 @@ void Builder::measure_film(const SourceLocation& place, bool reserve) {
   }
 }
 
-void Builder::override_samples_per_pixel(const ViewOptions& view) {
+void Builder::compile_sampler(Parameters& sensor, const ViewOptions& view) {
+  tables().sampler = compile_chosen(sensor.child("sampler"), "sampler", "sobol", {view.sampler, view.sampler_node},
+                                    sampler_plugins(), scene_.info.sampler);
   if (!view.samples_per_pixel) return;
   if (*view.samples_per_pixel < 1) {
     diagnostics_.error({}, fmt::format("{} samples per pixel", *view.samples_per_pixel),
@@ -199,13 +202,23 @@ void Builder::override_samples_per_pixel(const ViewOptions& view) {
 std::shared_ptr<const Node> Builder::sensor_node(Parameters& scene, const ViewOptions& view) {
   const auto sensors = scene.children("sensor");
   const Node* chosen = choose_sensor(scene, view.sensor, /*tell_of_others=*/!is_frame_alone_ && !view.sensor_node);
-  if (sensors.empty() && is_whole_ && !view.sensor_node)
-    diagnostics_.error(scene.node().location, "the scene has no sensor", "<sensor type=\"perspective\">");
-  for (std::size_t i = 0; sensors.size() > 1 && i < sensors.size(); ++i) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
     const bool is_chosen = sensors[i]->node.get() == chosen && !view.sensor_node;
-    describe(*sensors[i]->node, fmt::format("--sensor {}{}", i, is_chosen ? ", the one that is used" : ""));
+    if (is_chosen) scene_.info.sensor = static_cast<int>(i), scene_.info.sensor_id = chosen->id;
+    if (sensors.size() == 1) continue;
+    describe(*sensors[i]->node,
+             fmt::format("--sensor {}{}", word_for_sensor(sensors, i), is_chosen ? ", the one that is used" : ""));
   }
-  if (!chosen && !view.sensor_node) return nullptr;
+  if (!chosen && !view.sensor_node) {
+    // What is missing because of an error is not in need of another one.
+    if (!sensors.empty() || view.sensor || !is_whole_) return nullptr;
+    if (scene.children("shape").empty() && scene.children("emitter").empty()) {
+      diagnostics_.error(scene.node().location, "the scene has no sensor", "<sensor type=\"perspective\">");
+      return nullptr;
+    }
+    default_sensor_ = make_default_sensor(scene.node().location);
+    return std::make_shared<const Node>(*default_sensor_);
+  }
   auto node = std::make_shared<Node>(view.sensor_node ? *view.sensor_node : *chosen);
   if (view.sensor_node && chosen) take_film_and_sampler(*chosen, *node);
   for (const Property& property : view.camera) replace_property(property, *node);
@@ -214,21 +227,36 @@ std::shared_ptr<const Node> Builder::sensor_node(Parameters& scene, const ViewOp
 
 void Builder::compile_sensor(Parameters& scene, const ViewOptions& view, bool reserve) {
   sensor_ = sensor_node(scene, view);
-  if (!sensor_) return;
-  const Node& node = *sensor_;
-  const auto* plugin = find_plugin(sensor_plugins(), node, diagnostics_);
-  if (!plugin) return;
-  Parameters p = parameters(node);
+  if (!sensor_ || !find_plugin(sensor_plugins(), *sensor_, diagnostics_)) return;
+  Parameters p = parameters(*sensor_);
   SourceLocation film_place;
   tables().film = film(p, view, film_place);
-  tables().sampler = compile_chosen(p.child("sampler"), "sampler", "sobol", {view.sampler, view.sampler_node},
-                                    sampler_plugins(), scene_.info.sampler);
-  override_samples_per_pixel(view);
+  compile_sampler(p, view);
   if (!diagnostics_.has_errors()) measure_film(film_place, reserve);
-  tables().camera = plugin->compile(p, *this, tables().film);
-  view_place_ = p.where("far_clip");
-  refuse_kinds_to_come(p);
-  p.finish();
+  if (!default_sensor_) compile_camera(p);
+}
+
+void Builder::compile_camera(Parameters& sensor) {
+  const auto* plugin = find_plugin(sensor_plugins(), sensor.node(), diagnostics_);
+  tables().camera = plugin->compile(sensor, *this, tables().film);
+  view_place_ = sensor.where("far_clip");
+  refuse_kinds_to_come(sensor);
+  sensor.finish();
+}
+
+void Builder::compile_default_camera() {
+  if (!default_sensor_) return;
+  const GeometryBuilder::Box bounds = geometry_.bounds();
+  if (!bounds.empty()) look_at_box(*default_sensor_, bounds.lower, bounds.upper);
+  Parameters p = parameters(*default_sensor_);
+  for (const char* kind : {"film", "sampler"}) p.children(kind);
+  compile_camera(p);
+  const float* origin = tables().camera.origin;
+  diagnostics_.note(default_sensor_->location,
+                    fmt::format("the scene has no sensor: the picture is taken from ({:.4g}, {:.4g}, {:.4g}) along +z, "
+                                "{:g} degrees wide",
+                                origin[0], origin[1], origin[2], kDefaultFieldOfView),
+                    "a <sensor> for another one");
 }
 
 void Builder::compile_frame(Parameters& scene, const std::set<const Node*>& inside, const ViewOptions& view,

@@ -26,6 +26,44 @@ bool is_delta(LightKind kind) {
   }
 }
 
+/// Mitsuba's coordinates of a mesh without any are barycentric, and so are those of our tables, but in the order of the
+/// winding. Where that is not the file's, every triangle gets corners of its own that say them.
+void give_rewound_texcoords(MeshData& mesh) {
+  if (std::ranges::find(mesh.rewound, true) == mesh.rewound.end()) return;
+  const auto unshare = [&]<class T>(Array<T>& values) {
+    if (values.empty()) return;
+    Array<T> own;
+    own.reserve(3 * mesh.triangles.size());
+    for (const auto& t : mesh.triangles) {
+      for (const std::uint32_t vertex : t) own.push_back(values[vertex]);
+    }
+    values = std::move(own);
+  };
+  unshare(mesh.positions);
+  unshare(mesh.normals);
+  for (MeshAttribute& attribute : mesh.attributes) {
+    if (attribute.per_face) continue;
+    decltype(attribute.values) own;
+    own.reserve(3 * mesh.triangles.size() * attribute.channels);
+    for (const auto& t : mesh.triangles) {
+      for (const std::uint32_t vertex : t) {
+        const auto first = attribute.values.begin() + std::ptrdiff_t{vertex} * attribute.channels;
+        own.insert(own.end(), first, first + attribute.channels);
+      }
+    }
+    attribute.values = std::move(own);
+  }
+  mesh.texcoords.reserve(3 * mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto corner = static_cast<std::uint32_t>(3 * i);
+    mesh.triangles[i] = {corner, corner + 1, corner + 2};
+    const float second = mesh.rewound[i] ? 0.0f : 1.0f;
+    mesh.texcoords.push_back({0, 0});
+    mesh.texcoords.push_back({second, 1 - second});
+    mesh.texcoords.push_back({1 - second, second});
+  }
+}
+
 }  // namespace
 
 double read_sampling_weight(Parameters& emitter) {
@@ -75,7 +113,7 @@ void Builder::compile_shape(const Node& node) {
 
 void Builder::remember_if_beyond_view(const Node& node) {
   const GeometryBuilder::Box& box = geometry_.latest();
-  if (box.empty()) return;
+  if (box.empty() || default_sensor_) return;
   const CameraRecord& camera = tables().camera;
   const auto vector = [](const float(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
   const glm::dvec3 forward = vector(camera.forward);
@@ -111,6 +149,8 @@ void Builder::compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compil
     const Node::Child* emitter = p.child("emitter");
     attributes_.check(node, geometry.mesh.attributes, diagnostics_);
     if (geometry.mesh.texcoords.empty() && !geometry.mesh.triangles.empty()) want_texcoords(node);
+    const bool looks_at_uv = material.variation != Variation::none || texture_by_uv(node) != nullptr;
+    if (looks_at_uv) give_rewound_texcoords(geometry.mesh);
     const std::vector<MeshAttribute> attributes = std::move(geometry.mesh.attributes);
     const auto first_vertex = static_cast<std::uint32_t>(tables().positions.size() / 3);
     const std::uint32_t first_triangle = tables().triangle_count();

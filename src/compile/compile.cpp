@@ -123,6 +123,7 @@ std::string AskedOfIntegrator::difference(const IntegratorSettings& integrator) 
 
 SceneFrame LoadedScene::frame(const ViewOptions& looked_at) const {
   SceneFrame frame;
+  frame.is_as_loaded = true;
   frame.camera = tables.camera;
   frame.film = tables.film;
   frame.filter = tables.filter;
@@ -132,6 +133,7 @@ SceneFrame LoadedScene::frame(const ViewOptions& looked_at) const {
   frame.integrator_name = info.integrator, frame.sampler_name = info.sampler;
   frame.items.assign(info.items.begin(), info.items.begin() + static_cast<std::ptrdiff_t>(frame_items));
   frame.film_bytes = info.memory.film, frame.image_bytes = info.memory.image;
+  frame.sensor = info.sensor, frame.sensor_id = info.sensor_id;
   frame.view = looked_at;
   return frame;
 }
@@ -189,6 +191,7 @@ std::optional<SceneFrame> compile_frame(const LoadedScene& scene, const SceneFra
                       "the scene loaded with that integrator");
     return std::nullopt;
   }
+  made->is_as_loaded = false;
   made->changes = frame.changes;
   if (changes.sensor || changes.sensor_node || !changes.camera.empty()) {
     made->changes = text_of_camera(view);

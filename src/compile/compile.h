@@ -22,6 +22,9 @@ struct SceneFrame {
   IntegratorSettings integrator;
   SceneLayers layers;
   std::string integrator_name, sampler_name;  ///< of their plugins
+  int sensor = 0;                             ///< which of the scene's, and its id
+  std::string sensor_id = {};
+  bool is_as_loaded = false;
   std::vector<SceneInfo::Item> items;
   std::uint64_t film_bytes = 0, image_bytes = 0;
   ViewOptions view;     ///< in which it differs from the scene's own words

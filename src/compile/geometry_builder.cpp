@@ -88,6 +88,7 @@ std::uint32_t GeometryBuilder::add(ShapeGeometry geometry, Material material) {
   switch (of) {
     case Class::triangles:
       add_triangles(std::move(geometry.mesh), material, box);
+      record.turned_below = record.smooth != 0 ? largest_turn(record.first_primitive) : -1;
       break;
     case Class::sphere:
       add_spheres(geometry.spheres, material, record, box);
@@ -171,6 +172,22 @@ void GeometryBuilder::add_triangles(MeshData mesh, Material material, Box& box) 
                           material.back,
                           next_shape()});
   }
+}
+
+float GeometryBuilder::largest_turn(std::size_t first_triangle) const {
+  const SceneTables& t = tables_;
+  double least = 1;
+  for (std::size_t i = first_triangle; i < t.surfaces.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* normal = t.normals.data() + std::size_t{3} * t.triangle_vertices[3 * i + k];
+      const float* face = t.surfaces[i].geometry;
+      least =
+          std::min(least, glm::dot(glm::dvec3(normal[0], normal[1], normal[2]), glm::dvec3(face[0], face[1], face[2])));
+    }
+  }
+  // For what rounding does to normals, directions and weights.
+  constexpr double kReserve = 1e-3;
+  return static_cast<float>(least > 0 ? std::sqrt(std::max(1 - least * least, 0.0)) + kReserve : 2);
 }
 
 void GeometryBuilder::set_light(std::uint32_t shape, std::uint32_t primitive, std::uint32_t light) {

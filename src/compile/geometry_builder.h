@@ -76,6 +76,12 @@ class GeometryBuilder {
   const Box& latest() const { return latest_; }
   void forget_latest() { latest_ = {}; }
 
+  /// Bounds of all that was added to the world.
+  Box bounds() const {
+    const auto world = boxes_.find(kNone);
+    return world == boxes_.end() ? Box{} : world->second;
+  }
+
   /// Puts spheres and analytic primitives behind the triangles, and tells the bounds of it all.
   void finish(SceneInfo& info);
 
@@ -86,6 +92,8 @@ class GeometryBuilder {
   void add_spheres(const std::vector<ShapeGeometry::Sphere>& spheres, Material material, ShapeRecord& record, Box& box);
   void add_analytic(const AnalyticShape& analytic, Material material, Box& box);
   void add_triangles(MeshData mesh, Material material, Box& box);
+  /// ShapeRecord::turned_below of the triangles from this one on.
+  float largest_turn(std::size_t first_triangle) const;
   std::uint32_t next_shape() const { return static_cast<std::uint32_t>(tables_.shapes.size()); }
 
   SceneTables& tables_;

@@ -10,7 +10,7 @@
 
 #include "base/text.h"
 #include "color/srgb.h"
-#include "formats/texel_image.h"
+#include "image/texel_image.h"
 #include "scene/within_memory.h"
 
 namespace norrsken {
@@ -65,7 +65,7 @@ std::optional<StoredImage> ImageStore::read(const std::string& path, bool raw, c
   auto contents = read_counted(files_, path, error);
   if (!contents) return refuse(error, "an image file");
   TexelImage image;
-  error = read_texels(path, contents->bytes, image);
+  error = read_texels(contents->bytes, image);
   contents.reset();
   if (!error.empty()) return refuse(error, "a PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR file");
   return store(image, raw, path, named_at);

@@ -176,7 +176,7 @@ TEST(Messages, OutOfRange) {
             R"(scene.xml:9:33: error: 'radius' is -1
     9 |     <float name="radius" value="-1"/>
       |                                 ^~
-accepted: a number above 0
+accepted: a number of at least 0
 )");
   EXPECT_EQ(complaints(R"(  <shape type="sphere">
     <float name="radius" value="1e16"/>
@@ -184,20 +184,20 @@ accepted: a number above 0
             R"(scene.xml:9:33: error: 'radius' is 1e+16
     9 |     <float name="radius" value="1e16"/>
       |                                 ^~~~
-accepted: a number above 0 and at most 1e+12
+accepted: a number from 0 to 1e+12
 )");
 }
 
 TEST(Messages, OutOfRangeThroughAParameter) {
-  const std::string elements = R"(  <default name="size" value="0"/>
+  const std::string elements = R"(  <default name="size" value="-1"/>
   <shape type="sphere">
     <float name="radius" value="$size"/>
   </shape>)";
   EXPECT_EQ(complaints(elements),
-            R"(scene.xml:10:33: error: 'radius' is 0 (from '$size')
+            R"(scene.xml:10:33: error: 'radius' is -1 (from '$size')
    10 |     <float name="radius" value="$size"/>
       |                                 ^~~~~
-accepted: a number above 0
+accepted: a number of at least 0
 )");
   LoadOptions options;
   options.parameters = {{"size", "-2"}};
@@ -205,7 +205,7 @@ accepted: a number above 0
             R"(scene.xml:10:33: error: 'radius' is -2 (from '$size', set by -Dsize=-2)
    10 |     <float name="radius" value="$size"/>
       |                                 ^~~~~
-accepted: a number above 0
+accepted: a number of at least 0
 )");
 }
 

@@ -20,9 +20,7 @@ const std::map<std::string_view, std::vector<std::string_view>>& mitsuba_plugins
        {"area", "constant", "directional", "directionalarea", "envmap", "point", "projector", "spot", "sunsky",
         "timed_sunsky", "volumelight"}},
       {"film", {"hdrfilm", "specfilm"}},
-      {"integrator",
-       {"aov", "depth", "direct", "direct_projective", "moment", "path", "prb", "prb_basic", "prb_projective",
-        "prbvolpath", "ptracer", "stokes", "volpath", "volpathmis"}},
+      {"integrator", {"aov", "depth", "direct", "moment", "path", "ptracer", "stokes", "volpath", "volpathmis"}},
       {"medium", {"heterogeneous", "homogeneous"}},
       {"phase", {"blendphase", "hg", "isotropic", "rayleigh", "sggx", "tabphase"}},
       {"rfilter", {"box", "catmullrom", "gaussian", "lanczos", "mitchell", "tent"}},
@@ -34,6 +32,16 @@ const std::map<std::string_view, std::vector<std::string_view>>& mitsuba_plugins
       {"spectrum", {"blackbody", "d65", "irregular", "rawconstant", "regular", "srgb", "uniform"}},
       {"texture", {"bitmap", "checkerboard", "mesh_attribute", "rawconstant", "volume"}},
       {"volume", {"constvolume", "gridvolume"}},
+  };
+  return plugins;
+}
+
+/// Those that Mitsuba 3 has for derivatives of images (its folder python/ad/integrators).
+const std::map<std::string_view, std::vector<std::string_view>>& differentiable_plugins() {
+  static const std::map<std::string_view, std::vector<std::string_view>> plugins = {
+      {"integrator",
+       {"direct_projective", "emission_reparam", "direct_reparam", "prb", "prb_basic", "prb_projective", "prb_reparam",
+        "prbvolpath", "projective", "rb", "volprim_rf_basic"}},
   };
   return plugins;
 }
@@ -66,16 +74,18 @@ bool lists(const std::map<std::string_view, std::vector<std::string_view>>& plug
 
 bool is_mitsuba_plugin(std::string_view kind, std::string_view name) { return lists(mitsuba_plugins(), kind, name); }
 
+std::string complaint_about_plugin(const Node& node, const std::vector<std::string>& accepted) {
+  const std::string name = node.kind + " " + quoted(node.plugin);
+  if (lists(differentiable_plugins(), node.kind, node.plugin))
+    return name + " is for differentiable rendering, which this program does not do";
+  if (is_mitsuba_plugin(node.kind, node.plugin)) return name + " is not supported yet";
+  if (lists(older_plugins(), node.kind, node.plugin)) return name + " of Mitsuba 0.6 is not supported";
+  return "unknown " + name + did_you_mean(node.plugin, accepted);
+}
+
 void complain_about_plugin(const Node& node, std::vector<std::string> accepted, Diagnostics& diagnostics) {
   std::ranges::sort(accepted);
-  std::string message;
-  if (is_mitsuba_plugin(node.kind, node.plugin)) {
-    message = node.kind + " " + quoted(node.plugin) + " is not supported yet";
-  } else if (lists(older_plugins(), node.kind, node.plugin)) {
-    message = node.kind + " " + quoted(node.plugin) + " of Mitsuba 0.6 is not supported";
-  } else {
-    message = "unknown " + node.kind + " " + quoted(node.plugin) + did_you_mean(node.plugin, accepted);
-  }
+  std::string message = complaint_about_plugin(node, accepted);
   diagnostics.error(node.plugin_location, std::move(message), join(accepted));
 }
 

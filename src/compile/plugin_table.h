@@ -22,8 +22,10 @@ struct Plugin {
 /// Whether Mitsuba 3 documents a plugin `name` of this kind ("bsdf", "shape", ...).
 bool is_mitsuba_plugin(std::string_view kind, std::string_view name);
 
-/// "bsdf 'roughplastic' is not supported yet" or "unknown bsdf 'difuse', did you mean 'diffuse'?", with `accepted`
-/// sorted; points at the node's `type`.
+/// "bsdf 'roughplastic' is not supported yet" or "unknown bsdf 'difuse', did you mean 'diffuse'?"
+std::string complaint_about_plugin(const Node& node, const std::vector<std::string>& accepted);
+
+/// Says so, with `accepted` sorted; points at the node's `type`.
 void complain_about_plugin(const Node& node, std::vector<std::string> accepted, Diagnostics& diagnostics);
 
 template <class Function>
@@ -32,16 +34,20 @@ const Plugin<Function>* find_plugin(std::span<const Plugin<Function>> table, std
   return found == table.end() ? nullptr : &*found;
 }
 
+template <class Function>
+std::vector<std::string> names_of(std::span<const Plugin<Function>> table) {
+  std::vector<std::string> names;
+  for (const auto& entry : table) names.emplace_back(entry.name);
+  std::ranges::sort(names);
+  return names;
+}
+
 /// The entry that `node` names, or nullptr after a complaint.
 template <class Function>
 const Plugin<Function>* find_plugin(std::span<const Plugin<Function>> table, const Node& node,
                                     Diagnostics& diagnostics) {
   const auto* found = find_plugin(table, node.plugin);
-  if (!found) {
-    std::vector<std::string> accepted;
-    for (const auto& entry : table) accepted.emplace_back(entry.name);
-    complain_about_plugin(node, std::move(accepted), diagnostics);
-  }
+  if (!found) complain_about_plugin(node, names_of(table), diagnostics);
   return found;
 }
 

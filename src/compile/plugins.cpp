@@ -1,6 +1,24 @@
 #include "compile/plugins.h"
 
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "compile/scene_children.h"
+#include "scene/constant_spectrum.h"
+
 namespace norrsken {
+namespace {
+
+// What may stand below a definition that a scene refers to.
+std::vector<std::string> supported_plugins(const std::string& kind) {
+  if (kind == "bsdf") return names_of(bsdf_plugins());
+  if (kind == "emitter") return names_of(emitter_plugins());
+  if (kind == "shape") return names_of(shape_plugins());
+  if (kind == "texture" || kind == "spectrum") return names_of(texture_plugins());
+  return {};
+}
+
+}  // namespace
 
 bool perturbs_bsdf(std::string_view plugin) {
   return false
@@ -104,6 +122,20 @@ std::span<const Plugin<CompileIntegrator>> integrator_plugins() {
 #undef NORRSKEN_INTEGRATOR
   };
   return kTable;
+}
+
+bool is_supported(const Node& unused, Diagnostics& diagnostics) {
+  for (const Node* node : nodes_below({&unused})) {
+    const std::vector<std::string> supported = supported_plugins(node->kind);
+    if (is_constant_spectrum(*node) || std::ranges::find(supported, node->plugin) != supported.end()) continue;
+    const std::string name = unused.id.empty() ? "this " + unused.kind : quoted(unused.id);
+    diagnostics.warning(
+        node->plugin_location,
+        fmt::format("nothing uses {}, which is left out: {}", name, complaint_about_plugin(*node, supported)),
+        join(supported));
+    return false;
+  }
+  return true;
 }
 
 }  // namespace norrsken

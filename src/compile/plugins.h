@@ -63,6 +63,9 @@ using CompileIntegrator = IntegratorSettings(Parameters&, Builder&);
 bool perturbs_bsdf(std::string_view plugin);
 bool chooses_bsdf(std::string_view plugin);
 
+/// Whether a definition that nothing uses can be compiled; else a warning names the plugin inside of it that is missing.
+bool is_supported(const Node& unused, Diagnostics& diagnostics);
+
 std::span<const Plugin<CompileBsdf>> bsdf_plugins();
 std::span<const Plugin<CompileTexture>> texture_plugins();
 std::span<const Plugin<CompileShape>> shape_plugins();

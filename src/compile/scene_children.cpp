@@ -22,27 +22,48 @@ void warn_of_unused(const Node& node, Diagnostics& diagnostics) {
 std::string describe_sensors(const std::vector<const Node::Child*>& sensors) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const std::string word = word_for_sensor(sensors, i);
     const std::string& id = sensors[i]->node->id;
-    words.push_back(fmt::format("{}{}", i, id.empty() ? "" : " or " + id));
+    words.push_back(id.empty() || id == word ? word : fmt::format("{} or {}", word, id));
   }
   return listed(words);
 }
 
 }  // namespace
 
-std::set<const Node*> nodes_inside_of_others(const Node& scene) {
-  std::set<const Node*> inside, walked;
-  std::vector<const Node*> open{&scene};
+std::vector<const Node*> nodes_below(std::vector<const Node*> open) {
+  std::vector<const Node*> nodes;
+  std::set<const Node*> walked;
+  std::ranges::reverse(open);
   while (!open.empty()) {
     const Node& node = *open.back();
     open.pop_back();
     if (!walked.insert(&node).second) continue;
-    for (const Node::Child& child : node.children) {
-      if (&node != &scene) inside.insert(child.node.get());
-      open.push_back(child.node.get());
-    }
+    nodes.push_back(&node);
+    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) open.push_back(child->node.get());
+  }
+  return nodes;
+}
+
+std::set<const Node*> nodes_inside_of_others(const Node& scene) {
+  std::set<const Node*> inside;
+  for (const Node* node : nodes_below({&scene})) {
+    if (node == &scene) continue;
+    for (const Node::Child& child : node->children) inside.insert(child.node.get());
   }
   return inside;
+}
+
+std::set<const Node*> nodes_in_use(const Node& scene) {
+  std::vector<const Node*> roots;
+  for (const Node::Child& child : scene.children) {
+    const Node& node = *child.node;
+    const bool is_part = node.kind == "sensor" || node.kind == "integrator" || node.kind == "emitter" ||
+                         (node.kind == "shape" && node.plugin != "shapegroup");
+    if (is_part) roots.push_back(&node);
+  }
+  const std::vector<const Node*> used = nodes_below(std::move(roots));
+  return {used.begin(), used.end()};
 }
 
 void take_definitions(Parameters& scene, const std::set<const Node*>& inside) {
@@ -76,11 +97,11 @@ std::vector<const Node*> emitters_of_scene(Parameters& scene, const std::set<con
 
 const Node* choose_sensor(Parameters& scene, const std::optional<std::string>& choice, bool tell_of_others) {
   const std::vector<const Node::Child*> sensors = scene.children("sensor");
-  if (sensors.empty()) return nullptr;
   if (!choice) {
+    if (sensors.empty()) return nullptr;
     for (std::size_t i = 1; tell_of_others && i < sensors.size(); ++i) {
       scene.diagnostics().warning(sensors[i]->location, "only the scene's first sensor is used, this one is left aside",
-                                  fmt::format("--sensor {} for this one", i));
+                                  fmt::format("--sensor {} for this one", word_for_sensor(sensors, i)));
     }
     return sensors[0]->node.get();
   }
@@ -94,8 +115,15 @@ const Node* choose_sensor(Parameters& scene, const std::optional<std::string>& c
   for (const Node::Child* sensor : sensors) ids.push_back(sensor->node->id);
   scene.diagnostics().error(
       {}, fmt::format("--sensor: the scene has no sensor {}{}", quoted(*choice), did_you_mean(*choice, ids)),
-      describe_sensors(sensors));
+      sensors.empty() ? "no --sensor: the scene has none" : describe_sensors(sensors));
   return nullptr;
+}
+
+std::string word_for_sensor(const std::vector<const Node::Child*>& sensors, std::size_t number) {
+  const std::string word = std::to_string(number), &own = sensors[number]->node->id;
+  const auto first = std::ranges::find_if(sensors, [&](const auto* sensor) { return sensor->node->id == word; });
+  const bool is_taken = first != sensors.end() && *first != sensors[number];
+  return is_taken && !own.empty() ? own : word;
 }
 
 }  // namespace norrsken

@@ -13,6 +13,12 @@ namespace norrsken {
 /// All nodes below the scene's own children: those that a `ref` puts there stand in the scene too.
 std::set<const Node*> nodes_inside_of_others(const Node& scene);
 
+/// These nodes and all that is inside of them, in order of appearance.
+std::vector<const Node*> nodes_below(std::vector<const Node*> nodes);
+
+/// What the picture is made of: without definitions that nothing refers to, directly or not.
+std::set<const Node*> nodes_in_use(const Node& scene);
+
 /// Takes the scene's films, media, phase functions, filters, samplers and volumes, which mean something to what refers
 /// to them; warns of those that nothing does.
 void take_definitions(Parameters& scene, const std::set<const Node*>& inside);
@@ -27,5 +33,8 @@ std::vector<const Node*> emitters_of_scene(Parameters& scene, const std::set<con
 /// The sensor with the id `choice`, or of that number, counted from 0; the first without a choice, with a warning if
 /// there are others and `tell_of_others`. Null after a complaint.
 const Node* choose_sensor(Parameters& scene, const std::optional<std::string>& choice, bool tell_of_others);
+
+/// What to say to `choose_sensor` for a sensor: its number, unless that is the id of another one.
+std::string word_for_sensor(const std::vector<const Node::Child*>& sensors, std::size_t number);
 
 }  // namespace norrsken

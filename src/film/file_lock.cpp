@@ -6,10 +6,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
-#include "film/image_file.h"
+#include "base/atomic_file.h"
 
 namespace norrsken {
 namespace {
@@ -39,7 +38,7 @@ std::string FileLock::take() {
       struct stat there {};
       // Of a folder that is missing or closed the caller's own name says enough.
       const std::string in_the_way = lstat(name_.c_str(), &there) == 0 ? "'" + name_ + "': " : "";
-      return in_the_way + std::generic_category().message(error);
+      return in_the_way + error_text(error);
     }
     const int error = flock(file.get(), LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
     // Another process may have removed it between opening and locking: then it locks nobody out.

@@ -10,13 +10,12 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
+#include "base/atomic_file.h"
 #include "base/checksum.h"
 #include "base/regular_file.h"
 #include "film/file_lock.h"
-#include "film/image_file.h"
 
 namespace norrsken {
 namespace {
@@ -48,8 +47,6 @@ template <class Head>
 std::uint64_t checksum_of(const Head& head, std::uint64_t seed) {
   return checksum(bytes_of(head).first(sizeof head - sizeof head.checksum), seed);
 }
-
-std::string error_text(int error) { return std::generic_category().message(error); }
 
 std::string temporary_of(const std::string& path) { return path + ".tmp"; }
 

@@ -17,8 +17,8 @@ namespace norrsken {
 /// What some programs put before UTF-8 text.
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// What is left out of a mesh.
-enum class MeshFlaw { not_finite, small_face, no_faces, intricate_face, count };
+/// What is left out of a mesh, or missing from it.
+enum class MeshFlaw { not_finite, small_face, no_faces, intricate_face, no_texcoords, count };
 
 class MeshComplaints {
  public:

@@ -25,6 +25,8 @@ struct MeshData {
   Array<std::array<float, 2>> texcoords;
   Array<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the front
   std::vector<MeshAttribute> attributes;
+  /// The triangles whose second and third corner have changed places since they were read; empty: none.
+  std::vector<bool> rewound;
   bool face_normals = false;  ///< the file wants its triangles flat
 };
 

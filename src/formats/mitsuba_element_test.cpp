@@ -20,7 +20,7 @@ TEST(RootErrors, NoVersion) {
             R"(room.xml:1:1: error: <scene> needs an attribute 'version'
     1 | <scene>
       | ^~~~~~
-accepted: version, id, name, type)");
+accepted: version="3.0.0", or that of the Mitsuba which the scene is for)");
 }
 
 TEST(RootErrors, NoSuchVersion) {

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "formats/mitsuba_values.h"
+#include "scene/find_file.h"
 
 namespace norrsken {
 namespace {
@@ -58,7 +59,8 @@ std::optional<Property::Transform> read_transform(MitsubaContext& context, const
     Element step = context.open(document, child, *rules);
     step.name = name;
     context.refuse_contents(document, child);
-    const auto matrix = step.good ? read_transform_step(step, context.diagnostics) : std::nullopt;
+    const RotationAxis axis = context.upgrade.version.is_old() ? RotationAxis::direction : RotationAxis::as_given;
+    const auto matrix = step.good ? read_transform_step(step, axis, context.diagnostics) : std::nullopt;
     good = good && matrix;
     if (matrix) result = *matrix * result;
   }
@@ -103,13 +105,7 @@ void MitsubaContext::refuse_contents(const XmlDocument& document, pugi::xml_node
 }
 
 std::string MitsubaContext::find_file(const Literal& name) const {
-  std::string other;
-  std::string path = resolve_file(files, name.text, file_folders, &other);
-  if (path.empty())
-    diagnostics.error(name.location(), fmt::format("there is no file {}", name.quote(name.text)),
-                      accepted_files(name.text, file_folders));
-  if (!other.empty()) diagnostics.warning(name.location(), two_files_of_one_name(name.text, path, other));
-  return path;
+  return norrsken::find_file(files, name.text, file_folders, name.location(), name.origin, diagnostics);
 }
 
 const std::vector<std::string>& value_types() {

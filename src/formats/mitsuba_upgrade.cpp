@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "formats/mitsuba_upgrade_node.h"
 #include "formats/mitsuba_upgrade_rules.h"
+#include "formats/mitsuba_values.h"
 
 namespace norrsken {
 namespace {
@@ -50,6 +51,10 @@ bool changes_image(const Property& property) {
 std::string MitsubaUpgrade::element(const XmlDocument& document, pugi::xml_node element) {
   const std::string_view name = element.name();
   if (!version.is_old()) return std::string(name);
+  if (version.is_before(3) && name == "lookAt" && element.attribute("ox")) {
+    note(document.location(element), "<lookAt> of numbers is <scale x=\"-1\"/> and <lookat>");
+    return std::string(kLookatOfNumbers);
+  }
   for (const ElementRule& rule : kElements) {
     if (rule.from != name || !applies(rule.before, version)) continue;
     note(document.location(element), fmt::format("<{}> is <{}>", name, rule.to));
@@ -72,8 +77,9 @@ void MitsubaUpgrade::add(std::shared_ptr<Node> node) {
   old_nodes_.emplace(key, OldNode{std::move(node), version});
 }
 
-void MitsubaUpgrade::finish() {
+void MitsubaUpgrade::finish(Node& scene) {
   for (const Node* node : order_) upgrade_with_children(node);
+  std::erase_if(scene.children, [this](const Node::Child& child) { return taken_apart_.contains(child.node.get()); });
 }
 
 // Children come before their parents, who may take them apart. References lead to few levels (see `References`).
@@ -176,8 +182,9 @@ void MitsubaUpgrade::rename_plugin(Node& node, SceneVersion of) {
 
 void MitsubaUpgrade::upgrade_film(Node& node, SceneVersion of) {
   std::erase_if(node.properties, [&](const Property& property) {
-    if (!property.name.starts_with("label[")) return false;
-    note(property.name_location, fmt::format("{} is left out: nothing is written into images", quoted(property.name)));
+    if (!property.name.starts_with("label[") && !property.name.starts_with("metadata[")) return false;
+    note(property.name_location,
+         fmt::format("{} is left out: such texts are not written into images", quoted(property.file_name())));
     return true;
   });
   if (node.plugin == "mfilm") {
@@ -191,19 +198,55 @@ void MitsubaUpgrade::upgrade_film(Node& node, SceneVersion of) {
       property.type = "string", property.written = "alpha", property.name = "pixel_format";
       note(property.name_location, fmt::format("'alpha' is 'pixel_format' {}", text_of(property)));
     } else if (property.name == "pixel_format" && std::get_if<std::string>(&property.value)) {
-      property.value = snake_case(text_of(property));
+      // Of several, as for 'multichannel', the first is the image's.
+      const std::string formats = text_of(property);
+      property.value = snake_case(trim(std::string_view(formats).substr(0, formats.find(','))));
     }
   }
 }
 
 void MitsubaUpgrade::upgrade_integrator(Node& node) {
   if (node.plugin == "vpl" && !has(node, "max_depth")) add_property(node, "max_depth", "integer", std::int64_t{5});
+  if (node.plugin == "multichannel") upgrade_multichannel(node);
   if (!is_among(node.plugin, "adaptive errctrl irrcache multichannel")) return;
   const auto inner = children_of_kind(node, "integrator");
   if (inner.size() != 1) return;
   warn(node.plugin_location, fmt::format("integrator {} is the {} inside of it", quoted(node.plugin),
                                          quoted(node.children[inner[0]].node->plugin)));
   become(node, *node.children[inner[0]].node);
+}
+
+// Fields become layers beside the image of the first of the others. Without fields nothing is done here.
+void MitsubaUpgrade::upgrade_multichannel(Node& node) {
+  std::vector<Node::Child> images;
+  std::string aovs;
+  for (const std::size_t place : children_of_kind(node, "integrator")) {
+    const Node::Child& child = node.children[place];
+    if (child.node->plugin != "field") {
+      images.push_back(child);
+      continue;
+    }
+    const Property* field = find(*child.node, "field");
+    const std::string asked = field ? text_of(*field) : std::string();
+    const auto* rule = std::ranges::find(kFields, asked, &FieldRule::from);
+    if (rule == std::end(kFields)) {
+      warn(child.node->plugin_location, fmt::format("the field {} is left out: there is no such layer", quoted(asked)));
+    } else if (aovs.find(rule->to) == std::string::npos) {
+      aovs += fmt::format("{}{}:{}", aovs.empty() ? "" : ",", rule->to, rule->to);
+    }
+  }
+  for (std::size_t i = 1; i < images.size(); ++i)
+    warn(images[i].location,
+         fmt::format("integrator {} is left out: the image is that of the first one", quoted(images[i].node->plugin)));
+  images.resize(std::min<std::size_t>(images.size(), 1));
+  std::erase_if(node.children, [&](const Node::Child& child) {
+    return child.node && child.node->kind == "integrator" && (images.empty() || child.node != images[0].node);
+  });
+  if (aovs.empty()) return;
+  warn(node.plugin_location, "integrator 'multichannel' is 'aov': its fields are layers beside the image");
+  node.plugin = "aov";
+  node.properties.clear();
+  add_property(node, "aovs", "string", aovs);
 }
 
 void MitsubaUpgrade::upgrade_sensor(Node& node, SceneVersion of) {
@@ -243,6 +286,14 @@ void MitsubaUpgrade::upgrade_shape(Node& node, SceneVersion of) {
   if (of.is_before(3) && node.plugin == "obj" && !has(node, "flip_tex_coords")) {
     add_property(node, "flip_tex_coords", "boolean", false);
     note(node.location, "'flip_tex_coords' is false, as v was not turned before 0.3");
+  }
+  const bool has_light = !children_of_kind(node, "emitter").empty();
+  if (of.is_before(3) && has_light && children_of_kind(node, "bsdf").empty()) {
+    auto diffuse = std::make_shared<Node>();
+    diffuse->kind = "bsdf", diffuse->plugin = "diffuse";
+    diffuse->location = diffuse->plugin_location = node.location;
+    node.children.push_back({{}, std::move(diffuse), node.location});
+    note(node.location, "the light's surface is 'diffuse', as it was before 0.3");
   }
   const bool has_material = !children_of_kind(node, "bsdf").empty() || !children_of_kind(node, "emitter").empty();
   if (node.plugin != "obj" || has_material || told_of_materials_) return;

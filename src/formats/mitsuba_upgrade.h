@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "formats/mitsuba_element.h"
@@ -39,7 +40,8 @@ class MitsubaUpgrade {
   /// A node of the file that is being read, to be upgraded by `finish`.
   void add(std::shared_ptr<Node> node);
   /// Upgrades the nodes that were added, once they have all their properties and children.
-  void finish();
+  /// `scene` loses the textures that nothing needs any longer.
+  void finish(Node& scene);
 
   /// File by file, in the order of lines; of very many the first, and how many more there are.
   std::vector<SceneChange> take_changes();
@@ -55,12 +57,14 @@ class MitsubaUpgrade {
   void leave_out_parameters(Node& node);
   void rename_plugin(Node& node, SceneVersion version);
   void upgrade_bsdf(Node& node, SceneVersion version);
+  void upgrade_microfacet(Node& node);
   void upgrade_conductor(Node& node);
   void upgrade_mixture(Node& node);
   void upgrade_texture(Node& node);
   void upgrade_bitmap(Node& node);
   void upgrade_scale_texture(Node& node);
   void upgrade_integrator(Node& node);
+  void upgrade_multichannel(Node& node);
   void upgrade_film(Node& node, SceneVersion version);
   void upgrade_sensor(Node& node, SceneVersion version);
   void upgrade_emitter(Node& node);
@@ -72,6 +76,7 @@ class MitsubaUpgrade {
   };
   std::vector<const Node*> order_;                      ///< in which they were added
   std::unordered_map<const Node*, OldNode> old_nodes_;  ///< that are still to be upgraded
+  std::unordered_set<const Node*> taken_apart_;         ///< whose contents have gone to whom they were for
   std::vector<SceneChange> changes_;
   std::uint64_t left_out_ = 0;  ///< changes, for there are so many
   bool told_of_white_ = false, told_of_materials_ = false;

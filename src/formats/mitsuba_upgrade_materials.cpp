@@ -1,8 +1,7 @@
-// The part of the upgrade of old scenes that is about BSDFs and textures.
+// The part of the upgrade of old scenes that is about BSDFs.
 #include <fmt/format.h>
 
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "base/numbers.h"
 #include "base/text.h"
@@ -53,6 +52,7 @@ void MitsubaUpgrade::upgrade_bsdf(Node& node, SceneVersion of) {
     add_property(node, "material", "string", std::string("Cr"));
     note(node.plugin_location, "bsdf 'mirror' is a 'conductor' of chrome");
   }
+  if (of.is_before(3) && node.plugin == "roughplastic") upgrade_microfacet(node);
   if (is_among(node.plugin, "conductor roughconductor")) upgrade_conductor(node);
   if (node.plugin == "mixturebsdf") upgrade_mixture(node);
   if (node.plugin == "normalmap") {
@@ -72,7 +72,34 @@ void MitsubaUpgrade::upgrade_bsdf(Node& node, SceneVersion of) {
     if (scale && !std::get_if<double>(&scale->value) && !std::get_if<std::int64_t>(&scale->value)) continue;
     if (scale) node.properties.push_back(*scale);
     note(child.location, "the texture 'scale' is the parameter 'scale' of the bump map");
+    taken_apart_.insert(child.node.get());
     child.node = std::shared_ptr<const Node>(child.node->children[inside[0]].node);
+  }
+}
+
+// How much of both reflectances there was told two factors.
+void MitsubaUpgrade::upgrade_microfacet(Node& node) {
+  struct Part {
+    const char *reflectance, *amount;
+    double by_default;
+  };
+  for (const Part& part :
+       {Part{"diffuse_reflectance", "diffuse_amount", 0}, {"specular_reflectance", "specular_amount", 1}}) {
+    const Property* given = find(node, part.amount);
+    const double amount = given ? number_of(*given) : 1;
+    const auto reflectance = std::ranges::find(node.properties, part.reflectance, &Property::name);
+    if (reflectance != node.properties.end()) {
+      multiply(*reflectance, amount);
+    } else if (!has(node, part.reflectance)) {
+      add_property(node, part.reflectance, "float", part.by_default * amount);
+    } else if (amount != 1) {
+      diagnostics_.error(given->location,
+                         fmt::format("{} multiplies a texture, which is not supported", quoted(given->file_name())),
+                         "1");
+    }
+    if (given)
+      note(given->location, fmt::format("{} is a part of {}", quoted(given->file_name()), quoted(part.reflectance)));
+    remove(node, part.amount);
   }
 }
 
@@ -125,100 +152,6 @@ void MitsubaUpgrade::upgrade_mixture(Node& node) {
   note(node.plugin_location,
        fmt::format("'mixturebsdf' is made of {}", bsdfs.size() == 2 ? "a 'blendbsdf'" : "'blendbsdf's"));
   become(node, *blend(node, bsdfs, weights, 0));
-}
-
-void MitsubaUpgrade::upgrade_texture(Node& node) {
-  const auto value = [&node](const char* name, double fallback) {
-    const Property* property = find(node, name);
-    return property ? number_of(*property) : fallback;
-  };
-  if (node.plugin == "vertexcolors") {
-    node.plugin = "mesh_attribute";
-    add_property(node, "name", "string", std::string("vertex_color"));
-    warn(node.plugin_location,
-         "texture 'vertexcolors' is the 'mesh_attribute' vertex_color, of linear values; Mitsuba 0.6 took those of PLY "
-         "files "
-         "as sRGB unless 'srgb' was false");
-  }
-  if (node.plugin == "bitmap") upgrade_bitmap(node);
-  if (node.plugin == "scale") upgrade_scale_texture(node);
-
-  const glm::dvec3 scale(value("uscale", 1), value("vscale", 1), 1);
-  const glm::dvec3 offset(value("uoffset", 0), value("voffset", 0), 0);
-  const Property* first = nullptr;
-  for (const char* name : {"uscale", "vscale", "uoffset", "voffset"}) {
-    if (const Property* property = find(node, name); property && !first) first = property;
-  }
-  if (!first || has(node, "to_uv")) return;
-  Property to_uv = *first;
-  if (scale * offset != offset) {
-    warn(first->location,
-         "texture coordinates are moved before they are scaled, as in Mitsuba 3; in Mitsuba 0.6 it was after");
-  } else {
-    note(first->location, "'uscale', 'vscale', 'uoffset' and 'voffset' are 'to_uv'");
-  }
-  to_uv.name = "to_uv", to_uv.type = "transform", to_uv.written = first->name;
-  to_uv.value = to_transform(glm::translate(glm::scale(glm::dmat4(1), scale), offset));
-  for (const char* name : {"uscale", "vscale", "uoffset", "voffset"}) remove(node, name);
-  node.properties.push_back(std::move(to_uv));
-}
-
-void MitsubaUpgrade::upgrade_bitmap(Node& node) {
-  const Property* u = find(node, "wrap_mode_u");
-  const Property* v = find(node, "wrap_mode_v");
-  if (u && v && text_of(*u) == text_of(*v) && !has(node, "wrap_mode")) {
-    note(u->name_location, "'wrapModeU' and 'wrapModeV' are 'wrap_mode'");
-    Property both = *u;
-    both.name = "wrap_mode";
-    remove(node, "wrap_mode_u");
-    remove(node, "wrap_mode_v");
-    node.properties.push_back(std::move(both));
-  }
-  for (Property& property : node.properties) {
-    if (property.name != "filter_type" || !is_among(text_of(property), "ewa trilinear")) continue;
-    note(property.location, fmt::format("{} is 'bilinear'", quoted(text_of(property))));
-    property.value = std::string("bilinear");
-  }
-  const Property* gamma = find(node, "gamma");
-  if (!gamma) return;
-  const double value = number_of(*gamma);
-  if (value == 1) {
-    note(gamma->location, "'gamma' of 1 is 'raw'");
-    if (!has(node, "raw")) add_property(node, "raw", "boolean", true);
-  } else if (std::abs(value - 2.2) < 0.01) {
-    warn(gamma->location, "'gamma' of 2.2 is the curve of sRGB");
-  } else if (value != -1) {
-    return;  // stays, and is complained about
-  }
-  remove(node, "gamma");
-}
-
-// A constant is multiplied out, and a factor of 1 vanishes; other factors are left, and complained about.
-void MitsubaUpgrade::upgrade_scale_texture(Node& node) {
-  const Property* factor = find(node, "scale");
-  if (factor && !std::get_if<double>(&factor->value) && !std::get_if<std::int64_t>(&factor->value)) return;
-  const double scale = factor ? number_of(*factor) : 1;
-  const auto inside = children_of_kind(node, "texture");
-  if (inside.size() == 1 && scale == 1) {
-    note(node.plugin_location, "texture 'scale' by 1 is what is inside of it");
-    become(node, *node.children[inside[0]].node);
-    return;
-  }
-  const Property* value = find(node, "value");
-  if (!value) return;
-  Property constant = *value;
-  if (auto* rgb = std::get_if<Property::Rgb>(&constant.value)) {
-    for (double& component : rgb->value) component *= scale;
-  } else if (auto* spectrum = std::get_if<Property::Spectrum>(&constant.value)) {
-    for (auto& sample : spectrum->samples) sample.second *= scale;
-  } else {
-    constant.value = scale * number_of(constant);
-  }
-  note(node.plugin_location, "texture 'scale' of a constant is multiplied out");
-  node.plugin = "rawconstant";
-  remove(node, "scale");
-  remove(node, "value");
-  node.properties.push_back(std::move(constant));
 }
 
 }  // namespace norrsken

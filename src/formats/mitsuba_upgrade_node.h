@@ -49,6 +49,17 @@ inline std::string text_of(const Property& property) {
   return text ? *text : std::string();
 }
 
+/// Multiplies a number, a colour or a spectrum.
+inline void multiply(Property& property, double factor) {
+  if (auto* rgb = std::get_if<Property::Rgb>(&property.value)) {
+    for (double& component : rgb->value) component *= factor;
+  } else if (auto* spectrum = std::get_if<Property::Spectrum>(&property.value)) {
+    for (auto& sample : spectrum->samples) sample.second *= factor;
+  } else {
+    property.value = factor * number_of(property);
+  }
+}
+
 /// A property that the file does not have; complaints about it point at the node's type.
 inline void add_property(Node& node, std::string name, std::string type, Property::Value value) {
   Property property;

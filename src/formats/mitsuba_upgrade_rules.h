@@ -32,7 +32,12 @@ inline constexpr ParameterRule kParameters[] = {
     {3, "shape", "cylinder", "p2", "p1"},
     {3, "texture", "checkerboard", "bright_color", "color0"},
     {3, "texture", "checkerboard", "dark_color", "color1"},
-    {3, "bsdf", "roughmetal roughglass", "alpha_b", "alpha"},
+    {3, "texture", "gridtexture", "bright_color", "color0"},
+    {3, "texture", "gridtexture", "dark_color", "color1"},
+    {3, "bsdf", "microfacet roughmetal roughglass", "alpha_b", "alpha"},
+    {3, "bsdf", "ward", "alpha_x", "alpha_u"},
+    {3, "bsdf", "ward", "alpha_y", "alpha_v"},
+    {3, "medium", "*", "size_multiplier", "density_multiplier"},
     {3, "bsdf", "roughmetal", "ior", "eta"},
     {4, "emitter", "area constant", "intensity", "radiance"},
     {4, "emitter", "directional", "intensity", "irradiance"},
@@ -51,6 +56,7 @@ inline constexpr LeftOutRule kLeftOut[] = {
     {"emitter", "envmap", "cache", "nothing is cached"},
     {"emitter", "envmap", "gamma", "the image's own format decides it"},
     {"film", "*", "attach_log", "no log is written into images"},
+    {"film", "*", "channel_names", "the integrator names the layers"},
     {"film", "ldrfilm pngfilm mfilm", "file_format", "the name of the output decides it"},
     {"film", "*", "tonemap_method gamma exposure key burn", "tone mapping is chosen when the image is written"},
     {"film", "mfilm", "digits variable", "they are of another file format"},
@@ -73,6 +79,7 @@ struct PluginRule {
 inline constexpr PluginRule kPlugins[] = {
     {3, "bsdf", "composite", "mixturebsdf"},
     {3, "bsdf", "lambertian", "diffuse"},
+    {3, "bsdf", "microfacet", "roughplastic"},
     {3, "bsdf", "roughglass", "roughdielectric"},
     {3, "bsdf", "roughmetal", "roughconductor"},
     {3, "texture", "exrtexture ldrtexture", "bitmap"},
@@ -85,6 +92,15 @@ inline constexpr PluginRule kPlugins[] = {
      "max_depth rr_depth hide_emitters", "which finds the same light in another way"},
     {kAllOld, "integrator", "volpath_simple", "volpath"},
     {kAllOld, "sampler", "halton hammersley", "sobol"},
+};
+
+/// What the integrator `field` of Mitsuba 0.6 shows, as a layer of `aov`.
+struct FieldRule {
+  std::string_view from, to;
+};
+inline constexpr FieldRule kFields[] = {
+    {"albedo", "albedo"},        {"distance", "depth"},     {"geoNormal", "geo_normal"},   {"position", "position"},
+    {"primIndex", "prim_index"}, {"shNormal", "sh_normal"}, {"shapeIndex", "shape_index"}, {"uv", "uv"},
 };
 
 }  // namespace norrsken::upgrade

@@ -1,59 +1,8 @@
-// Scenes of Mitsuba 0.x beside the same scenes in the words of Mitsuba 3: both must be read as the same description.
-#include "formats/mitsuba_upgrade.h"
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "formats/reader_testing.h"
+// The upgrade of old scenes but for materials.
+#include "formats/mitsuba_upgrade_testing.h"
 
 namespace norrsken {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
-
-struct Upgraded {
-  std::string description, complaints;
-  std::vector<std::string> changes;
-};
-
-Upgraded read(const std::string& version, const std::string& body) {
-  Diagnostics diagnostics;
-  const auto description =
-      read_scene(fmt::format("<scene version=\"{}\">\n{}\n</scene>", version, body), {}, diagnostics);
-  Upgraded result;
-  result.complaints = to_text(diagnostics);
-  if (!description) return result;
-  result.description = text_of(*description->scene);
-  for (const SceneChange& change : description->changes)
-    result.changes.push_back(place_text(change.location) + ": " + change.text);
-  return result;
-}
-
-// The same description, and for the old one the one warning that there always is.
-void expect_same(const std::string& version, const std::string& old, const std::string& today) {
-  SCOPED_TRACE(old);
-  const Upgraded upgraded = read(version, old), modern = read("3.0.0", today);
-  EXPECT_EQ(upgraded.description, modern.description);
-  EXPECT_EQ(modern.complaints, "");
-  EXPECT_EQ(
-      upgraded.complaints,
-      fmt::format("room.xml:1:17: note: the scene is for Mitsuba '{}' and was upgraded; 'norrsken info' tells how\n"
-                  "    1 | <scene version=\"{}\">\n      |                 {}",
-                  version, version, "^" + std::string(version.size() - 1, '~')));
-}
-
-// The same description, and a warning that says `warning`.
-void expect_same_but(const std::string& version, const std::string& old, const std::string& today,
-                     const std::string& warning) {
-  SCOPED_TRACE(old);
-  const Upgraded upgraded = read(version, old);
-  EXPECT_EQ(upgraded.description, read("3.0.0", today).description);
-  EXPECT_THAT(upgraded.complaints, HasSubstr("warning: " + warning));
-  EXPECT_THAT(upgraded.complaints, Not(HasSubstr("error:")));
-}
 
 TEST(MitsubaUpgrade, NamesOfParameters) {
   expect_same("0.6.0",
@@ -160,100 +109,6 @@ TEST(MitsubaUpgrade, BlackBodies) {
               HasSubstr("error: '-3' is not a temperature"));
 }
 
-TEST(MitsubaUpgrade, TextureCoordinates) {
-  expect_same(
-      "0.6.0",
-      R"(<texture type="checkerboard"><float name="uscale" value="4"/><float name="vscale" value="2"/></texture>)",
-      R"(<texture type="checkerboard"><transform name="to_uv"><scale x="4" y="2"/></transform></texture>)");
-  expect_same("0.6.0", R"(<texture type="checkerboard"><float name="uoffset" value="0.5"/></texture>)",
-              R"(<texture type="checkerboard"><transform name="to_uv"><translate x="0.5"/></transform></texture>)");
-  // As Mitsuba 3 upgrades it.
-  expect_same_but(
-      "0.6.0",
-      R"(<texture type="checkerboard"><float name="uoffset" value="0.5"/><float name="uscale" value="3"/></texture>)",
-      R"(<texture type="checkerboard"><transform name="to_uv"><translate x="0.5"/><scale x="3"/></transform></texture>)",
-      "texture coordinates are moved before they are scaled");
-}
-
-TEST(MitsubaUpgrade, Bitmaps) {
-  expect_same(
-      "0.6.0",
-      R"(<texture type="bitmap"><string name="wrapModeU" value="clamp"/><string name="wrapModeV" value="clamp"/>
-                            <string name="filterType" value="ewa"/><float name="gamma" value="1"/>
-                            <float name="maxAnisotropy" value="20"/><boolean name="cache" value="false"/></texture>)",
-      R"(<texture type="bitmap"><string name="wrap_mode" value="clamp"/><string name="filter_type" value="bilinear"/>
-                   <boolean name="raw" value="true"/></texture>)");
-  expect_same("0.6.0", R"(<texture type="bitmap"><float name="gamma" value="-1"/></texture>)",
-              R"(<texture type="bitmap"/>)");
-  expect_same_but("0.6.0", R"(<texture type="bitmap"><float name="gamma" value="2.2"/></texture>)",
-                  R"(<texture type="bitmap"/>)", "'gamma' of 2.2 is the curve of sRGB");
-  EXPECT_THAT(read("0.6.0", R"(<texture type="bitmap"><float name="gamma" value="1.8"/></texture>)").description,
-              HasSubstr("gamma = 1.8"));
-}
-
-TEST(MitsubaUpgrade, TexturesThatScale) {
-  const std::string bitmap = R"(<texture type="bitmap"><string name="filename" value="a.png"/></texture>)";
-  expect_same(
-      "0.6.0",
-      R"(<bsdf type="bumpmap"><texture type="scale"><float name="scale" value="10"/>)" + bitmap + "</texture></bsdf>",
-      R"(<bsdf type="bumpmap"><float name="scale" value="10"/>)" + bitmap + "</bsdf>");
-  expect_same(
-      "0.6.0", R"(<bsdf type="diffuse"><texture type="scale" name="reflectance"><float name="scale" value="0.5"/>
-                            <rgb name="value" value="0.2, 0.4, 0.6"/></texture></bsdf>)",
-      R"(<bsdf type="diffuse"><texture type="rawconstant" name="reflectance"><rgb name="value" value="0.1 0.2 0.3"/></texture></bsdf>)");
-  expect_same("0.6.0", R"(<texture type="scale">)" + bitmap + "</texture>", bitmap);
-  EXPECT_THAT(
-      read("0.6.0", R"(<texture type="scale"><float name="scale" value="2"/>)" + bitmap + "</texture>").description,
-      HasSubstr("texture scale"));
-}
-
-TEST(MitsubaUpgrade, NormalMapsAndVertexColours) {
-  expect_same("0.6.0", R"(<bsdf type="normalmap"><texture type="bitmap"/><bsdf type="diffuse"/></bsdf>)",
-              R"(<bsdf type="normalmap"><texture type="bitmap" name="normalmap"/><bsdf type="diffuse"/></bsdf>)");
-  expect_same_but("0.6.0", R"(<texture type="vertexcolors"/>)",
-                  R"(<texture type="mesh_attribute"><string name="name" value="vertex_color"/></texture>)",
-                  "texture 'vertexcolors' is the 'mesh_attribute' vertex_color, of linear values");
-}
-
-TEST(MitsubaUpgrade, ConductorsAreOfCopperUnlessTheySayOtherwise) {
-  for (const std::string plugin : {"conductor", "roughconductor"}) {
-    const auto bsdf = [&plugin](const std::string& inside) {
-      return "<bsdf type=\"" + plugin + "\">" + inside + "</bsdf>";
-    };
-    expect_same_but("0.6.0", bsdf(""), bsdf(R"(<string name="material" value="Cu"/>)"),
-                    fmt::format("a '{}' without a material is of copper", plugin));
-    const std::string none = R"(<string name="material" value="none"/>)";
-    expect_same("0.6.0", bsdf(none + R"(<string name="extEta" value="air"/>)"), bsdf(none));
-    const std::string numbers = R"(<rgb name="eta" value="1"/><rgb name="k" value="2"/>)";
-    expect_same("0.6.0", bsdf(numbers + R"(<float name="extEta" value="1.000277"/>)"), bsdf(numbers));
-    EXPECT_THAT(read("0.6.0", bsdf(R"(<rgb name="eta" value="1"/>)")).complaints,
-                HasSubstr("error: '" + plugin + "' has 'eta' alone, and copper's 'k' in Mitsuba 0.6"));
-  }
-}
-
-TEST(MitsubaUpgrade, MixturesAreBlends) {
-  const std::string red = R"(<bsdf type="diffuse"><rgb name="reflectance" value="1 0 0"/></bsdf>)",
-                    black = R"(<bsdf type="diffuse"><float name="reflectance" value="0"/></bsdf>)";
-  const auto mixture = [](const std::string& weights, const std::string& inside) {
-    return R"(<bsdf type="mixturebsdf"><string name="weights" value=")" + weights + "\"/>" + inside + "</bsdf>";
-  };
-  const auto blend = [](const std::string& weight, const std::string& inside) {
-    return R"(<bsdf type="blendbsdf"><float name="weight" value=")" + weight + "\"/>" + inside + "</bsdf>";
-  };
-  const std::string glass = R"(<bsdf type="dielectric"/>)", null = R"(<bsdf type="null"/>)";
-  expect_same("0.6.0", mixture("0.7, 0.3", red + glass), blend("0.3", red + glass));
-  expect_same("0.6.0", mixture("1 3", red + glass), blend("0.75", red + glass));  // scaled down to a sum of 1
-  // What the weights leave is absorbed.
-  expect_same("0.6.0", mixture("0.25, 0.25", red + glass), blend("0.75", red + blend("0.666666666666", glass + black)));
-  expect_same("0.6.0", mixture("0.5, 0.25, 0.25", red + glass + null), blend("0.5", red + blend("0.5", glass + null)));
-  // References are known when the blend is made.
-  expect_same("0.6.0", R"(<bsdf type="null" id="a"/>)" + mixture("0.5 0.5", red + R"(<ref id="a"/>)"),
-              R"(<bsdf type="null" id="a"/>)" + blend("0.5", red + R"(<ref id="a"/>)"));
-  for (const char* weights : {"0.5", "0.5, 0.2, 0.3", "0.5 -0.5", "half half", ""})
-    EXPECT_THAT(read("0.6.0", mixture(weights, red + glass)).complaints, HasSubstr("for 2 bsdfs of a 'mixturebsdf'"));
-  EXPECT_THAT(read("0.6.0", R"(<bsdf type="mixturebsdf"/>)").complaints, HasSubstr("0 weights for 0 bsdfs"));
-}
-
 TEST(MitsubaUpgrade, Films) {
   expect_same(
       "0.5.0", R"(<film type="ldrfilm"><integer name="width" value="8"/><string name="fileFormat" value="png"/>
@@ -305,6 +160,41 @@ TEST(MitsubaUpgrade, Integrators) {
               R"(<integrator type="path"/>)");
   expect_same_but("0.6.0", R"(<integrator type="path"><boolean name="strictNormals" value="true"/></integrator>)",
                   R"(<integrator type="path"/>)", "'strictNormals' is left out");
+}
+
+TEST(MitsubaUpgrade, FieldsAreLayers) {
+  const auto field = [](const char* name) {
+    return fmt::format(R"(<integrator type="field"><string name="field" value="{}"/></integrator>)", name);
+  };
+  const std::string path = R"(<integrator type="path"/>)";
+  expect_same_but(
+      "0.6.0", R"(<integrator type="multichannel">)" + path + field("shNormal") + field("distance") + "</integrator>",
+      R"(<integrator type="aov">)" + path +
+          R"(<string name="aovs" value="sh_normal:sh_normal,depth:depth"/></integrator>)",
+      "integrator 'multichannel' is 'aov': its fields are layers beside the image");
+  expect_same_but("0.6.0",
+                  R"(<integrator type="multichannel">)" + field("relPosition") + path +
+                      R"(<integrator type="direct"/></integrator>)",
+                  path, "integrator 'direct' is left out: the image is that of the first one");
+  expect_same("0.6.0", R"(<film type="hdrfilm"><string name="pixelFormat" value="rgb, rgb, luminance"/>
+                          <string name="channelNames" value="color, normal, distance"/>
+                          <string name="metadata['author']" value="me"/></film>)",
+              R"(<film type="hdrfilm"><string name="pixel_format" value="rgb"/></film>)");
+}
+
+TEST(MitsubaUpgrade, LooksOfBefore03) {
+  expect_same("0.2.1", R"(<shape type="sphere"><transform name="toWorld">
+                          <lookAt ox="1" oy="2" oz="3" tx="4" ty="5" tz="7" ux="0" uy="1" uz="0"/></transform></shape>)",
+              R"(<shape type="sphere"><transform name="to_world"><scale x="-1"/>
+                 <lookat origin="1 2 3" target="4 5 7" up="0 1 0"/></transform></shape>)");
+  expect_same("0.2.1", R"(<shape type="sphere"><transform name="toWorld">
+                          <lookAt ox="1" oy="2" oz="3" tx="4" ty="5" tz="7"/></transform></shape>)",
+              R"(<shape type="sphere"><transform name="to_world"><scale x="-1"/>
+                 <lookat origin="1 2 3" target="4 5 7"/></transform></shape>)");
+  EXPECT_THAT(
+      read("0.2.1", R"(<shape type="sphere"><transform name="toWorld"><lookAt ox="1" oy="2"/></transform></shape>)")
+          .complaints,
+      HasSubstr("error: <lookAt> needs an attribute 'oz'"));
 }
 
 TEST(MitsubaUpgrade, LightsOfOneValue) {

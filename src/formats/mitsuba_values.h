@@ -43,7 +43,13 @@ std::optional<glm::dvec3> read_coordinates(const Element& element, std::optional
 /// What a step of a <transform> may have: translate, scale, rotate, lookat (also look_at), matrix. Empty: no such step.
 std::optional<AttributeRules> transform_step_rules(std::string_view name);
 std::vector<std::string> transform_step_names();
+/// The step <lookAt ox="" oy="" oz="" tx="" ty="" tz="" ux="" uy="" uz=""/> of Mitsuba before 0.3, which mirrored x besides.
+/// No element can have such a name.
+inline constexpr std::string_view kLookatOfNumbers = "lookAt ox";
+/// What an axis of <rotate> means that is no unit vector: its direction alone, as in Mitsuba 0.x, or whatever the formula
+/// for unit vectors makes of it, as in Mitsuba 3.
+enum class RotationAxis { direction, as_given };
 /// The matrix of one step.
-std::optional<glm::dmat4> read_transform_step(const Element& step, Diagnostics& diagnostics);
+std::optional<glm::dmat4> read_transform_step(const Element& step, RotationAxis axis, Diagnostics& diagnostics);
 
 }  // namespace norrsken

@@ -295,5 +295,54 @@ TEST(TransformErrors, Matrix) {
 accepted: 16 numbers (4x4), or 9 (3x3), row after row)");
 }
 
+/// The matrix of these steps, row after row, and what was said about them.
+std::pair<std::vector<double>, std::string> matrix_of(const std::string& steps, const std::string& version = "3.0.0") {
+  Diagnostics diagnostics;
+  const auto scene = read_scene("<scene version=\"" + version + R"("><shape type="cube"><transform name="to_world">)" +
+                                    steps + "</transform></shape></scene>",
+                                {}, diagnostics);
+  std::vector<double> elements;
+  const glm::dmat4 matrix =
+      to_glm(std::get<Property::Transform>(scene.value().scene->children.at(0).node->properties.at(0).value));
+  for (int i = 0; i < 16; ++i) elements.push_back(matrix[i % 4][i / 4]);
+  return {elements, to_text(diagnostics)};
+}
+
+void expect_near(const std::vector<double>& values, const std::vector<double>& expected) {
+  ASSERT_EQ(values.size(), expected.size());
+  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(values[i], expected[i], 1e-4) << i;
+}
+
+TEST(Transform, AxesOfAnyLengthMeanWhatTheyMeanInMitsuba) {
+  // As Mitsuba 3.9.1 prints them.
+  const auto [about_y, warning] = matrix_of(R"(<rotate y="2" angle="30"/>)");
+  expect_near(about_y, {0.8660, 0, 1, 0, 0, 1.4019, 0, 0, -1, 0, 0.8660, 0, 0, 0, 0, 1});
+  EXPECT_EQ(
+      warning.substr(0, warning.find('\n')),
+      "room.xml:1:70: warning: the axis is 2 long, and the step no rotation: it stretches besides, as in Mitsuba 3");
+  EXPECT_EQ(warning.substr(warning.rfind('\n')), "\naccepted: the axis value=\"0 1 0\" for a rotation");
+  expect_near(matrix_of(R"(<rotate x="1" y="1" angle="30"/>)").first,
+              {1, 0.1340, 0.5, 0, 0.1340, 1, -0.5, 0, -0.5, 0.5, 0.8660, 0, 0, 0, 0, 1});
+  // What is of unit length but for its decimals is a rotation, and all is in 0.6.
+  const auto [rounded, nothing] = matrix_of(R"(<rotate value="0.577 0.577 0.577" angle="120"/>)");
+  expect_near(rounded, {0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1});
+  EXPECT_EQ(nothing, "");
+  const auto [old, note] = matrix_of(R"(<rotate value="5 5 5" angle="120"/>)", "0.6.0");
+  expect_near(old, {0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1});
+  EXPECT_EQ(note.find("warning"), std::string::npos);
+}
+
+TEST(Transform, LastRowsWithFewDecimals) {
+  for (const char* last : {"0 0 0 0.999999", "0 0 0 1.000001", "-0.000001 0.000002 0 1"}) {
+    const auto [matrix, said] = matrix_of("<matrix value=\"1 0 0 5 0 1 0 6 0 0 1 7 " + std::string(last) + "\"/>");
+    EXPECT_EQ(matrix, (std::vector<double>{1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1})) << last;
+    EXPECT_EQ(said, "");
+  }
+  for (const char* last : {"0 0 0 0.5", "0 0 0.001 1"}) {
+    const auto matrix = matrix_of("<matrix value=\"1 0 0 5 0 1 0 6 0 0 1 7 " + std::string(last) + "\"/>").first;
+    EXPECT_NE(std::vector<double>(matrix.begin() + 12, matrix.end()), (std::vector<double>{0, 0, 0, 1})) << last;
+  }
+}
+
 }  // namespace
 }  // namespace norrsken

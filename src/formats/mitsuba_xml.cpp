@@ -57,7 +57,7 @@ class MitsubaReader {
     Node everything;
     everything.children = {{{}, scene, {}}, {{}, rejected, {}}};
     if (!references_.resolve(everything) || !complete_) return std::nullopt;
-    context_.upgrade.finish();
+    context_.upgrade.finish(*scene);
     context_.parameters.finish();
     return Description{std::move(scene), std::move(context_.search_paths), context_.parameters.values(),
                        std::make_shared<MemoryReservation>(std::move(memory_)), context_.upgrade.take_changes()};
@@ -129,9 +129,10 @@ class MitsubaReader {
       return fail(document.location(root), fmt::format("the root element is <{}>", name),
                   top ? "<scene>" : "<scene>, or an object such as <bsdf>");
     }
-    const AttributeRules rules = top ? AttributeRules{{"version"}, {"id", "name", "type"}}
-                                     : AttributeRules{{}, {"version", "id", "name", "type"}};
-    const Element scene = context_.open(document, root, rules);
+    const Element scene = context_.open(document, root, {{}, {"version", "id", "name", "type"}});
+    if (top && scene.good && !scene.find("version"))
+      fail(scene.location, "<scene> needs an attribute 'version'",
+           "version=\"3.0.0\", or that of the Mitsuba which the scene is for");
     if (top) into.node.location = scene.location;
     if (const Literal* version = scene.find("version"); version && !check_version(*version)) return;
     read_children(document, root, into, depth);

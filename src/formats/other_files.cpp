@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -36,17 +37,32 @@ constexpr Signature kSignatures[] = {
     {"MM\0*"sv, "a TIFF image", kImage},
     {"PF\n"sv, "a PFM image", kImage},
     {"Pf\n"sv, "a PFM image", kImage},
+    {"P1\n"sv, "a PBM image", kImage},
+    {"P2\n"sv, "a PGM image", kImage},
+    {"P3\n"sv, "a PPM image", kImage},
+    {"P4\n"sv, "a PBM image", kImage},
+    {"P5\n"sv, "a PGM image", kImage},
     {"P6\n"sv, "a PPM image", kImage},
+    {"GIF8"sv, "a GIF image", kImage},
+    {"8BPS"sv, "a Photoshop image", kImage},
+    {"DDS "sv, "a DDS image", kImage},
+    {"VOL\x03"sv, "a volume", "a scene; volumes are a part of it as <volume type=\"gridvolume\">"},
+    {" BDV"sv, "a volume (OpenVDB)", "a scene"},
     {"BLENDER"sv, "a Blender file", kByBlender},
     {"\x28\xb5\x2f\xfd"sv, "a packed file (Zstandard), such as Blender's", kByBlender},
     {"\x1f\x8b"sv, "a packed file (gzip)", kUnpacked},
     {"PK\x03\x04"sv, "a packed file (ZIP)", kUnpacked},
+    {"7z\xbc\xaf"sv, "a packed file (7-Zip)", kUnpacked},
+    {"Rar!"sv, "a packed file (RAR)", kUnpacked},
     {"BZh"sv, "a packed file (bzip2)", kUnpacked},
     {"\xfd\x37zXZ"sv, "a packed file (xz)", kUnpacked},
     {"glTF"sv, "a glTF scene", kByBlender},
     {"PXR-USDC"sv, "a USD scene", kByBlender},
     {"#usda"sv, "a USD scene", kByBlender},
     {"Kaydara FBX"sv, "an FBX scene", kByBlender},
+    {"; FBX "sv, "an FBX scene", kByBlender},
+    {"Ogawa"sv, "an Alembic scene", kByBlender},
+    {"\x89HDF"sv, "an HDF file, such as older ones of Alembic", kByBlender},
     {"\x89Norrsk\n"sv, "a checkpoint of this program", "a scene; 'norrsken merge' makes an image of a checkpoint"},
     {"%PDF"sv, "a PDF document", "a scene"},
 };
@@ -103,15 +119,27 @@ std::string scene_around(std::string_view path, std::string_view plugin, const s
       plugin, in_xml(file_name(path)), into_view(mesh));
 }
 
-// Whether one of the first lines begins with one of the words and a blank.
-bool has_line(std::string_view text, std::initializer_list<std::string_view> words) {
-  for (int lines = 0; lines < 200 && !text.empty(); ++lines) {
+bool contains_ignoring_case(std::string_view text, std::string_view word) {
+  for (std::size_t at = 0; at + word.size() <= text.size(); ++at) {
+    if (equal_ignoring_case(text.substr(at, word.size()), word)) return true;
+  }
+  return false;
+}
+
+bool any_follows(std::string_view) { return true; }
+
+// Whether one of the first lines begins with one of the words and a blank, and the rest of it is `follows`; comments and
+// empty lines are none.
+bool has_line(std::string_view text, std::initializer_list<std::string_view> words,
+              bool (*follows)(std::string_view) = any_follows) {
+  for (int lines = 0; lines < 200 && !text.empty();) {
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
     const std::string_view line = trim(text.substr(0, end));
+    if (!line.empty() && line.front() != '#') ++lines;
     for (const std::string_view word : words) {
-      if (line.starts_with(word) &&
-          (line.size() == word.size() || line[word.size()] == ' ' || line[word.size()] == '\t'))
-        return true;
+      if (!line.starts_with(word)) continue;
+      const std::string_view rest = line.substr(word.size());
+      if (rest.empty() || ((rest[0] == ' ' || rest[0] == '\t') && follows(trim(rest)))) return true;
     }
     text.remove_prefix(std::min(end + 1, text.size()));
   }
@@ -119,6 +147,69 @@ bool has_line(std::string_view text, std::initializer_list<std::string_view> wor
 }
 
 bool contains(std::string_view text, std::string_view word) { return text.find(word) != std::string_view::npos; }
+
+// Whether it is anything but text: XML of 16 and 32 bits a character has zeros too, but beside each '<'.
+bool is_binary(std::string_view bytes) {
+  if (bytes.starts_with("\xFE\xFF"sv) || bytes.starts_with("\xFF\xFE"sv) || bytes.substr(0, 4) == "\0\0\xFE\xFF"sv)
+    return false;
+  const std::string_view head = bytes.substr(0, 4096);
+  return contains(head, "\0"sv) && !contains(head.substr(0, 8), "<"sv);
+}
+
+// Binary STL: a header of 80 bytes, how many triangles there are, and 50 bytes for each.
+bool is_binary_stl(std::string_view bytes) {
+  if (bytes.size() < 84) return false;
+  std::uint64_t triangles = 0;
+  for (std::size_t i = 4; i-- > 0;) triangles = triangles << 8 | static_cast<unsigned char>(bytes[80 + i]);
+  return bytes.size() == 84 + 50 * triangles;
+}
+
+// What pbrt's directives take, unlike sentences that begin with the same word.
+bool is_pbrt_value(std::string_view rest) {
+  return rest.empty() || std::string_view("\"[-+.#0123456789").find(rest[0]) != std::string_view::npos;
+}
+
+// Words that begin lines of pbrt's files, parts of scenes too.
+bool has_pbrt_line(std::string_view text) {
+  return has_line(text,
+                  {"WorldBegin",
+                   "WorldEnd",
+                   "AttributeBegin",
+                   "AttributeEnd",
+                   "TransformBegin",
+                   "Camera",
+                   "LookAt",
+                   "Film",
+                   "Integrator",
+                   "Sampler",
+                   "SurfaceIntegrator",
+                   "PixelFilter",
+                   "Accelerator",
+                   "ColorSpace",
+                   "Option",
+                   "Include",
+                   "Import",
+                   "Shape",
+                   "Material",
+                   "MakeNamedMaterial",
+                   "NamedMaterial",
+                   "Texture",
+                   "LightSource",
+                   "AreaLightSource",
+                   "ObjectBegin",
+                   "ObjectInstance",
+                   "ConcatTransform",
+                   "Transform",
+                   "Translate",
+                   "Scale",
+                   "Rotate",
+                   "MakeNamedMedium",
+                   "MediumInterface",
+                   "ReverseOrientation",
+                   "CoordinateSystem",
+                   "CoordSysTransform"},
+                  is_pbrt_value);
+}
 
 }  // namespace
 
@@ -129,6 +220,7 @@ std::optional<OtherFile> recognise_other_file(const std::string& path, std::stri
     return OtherFile{fmt::format("{} is {}, not {}", quoted(file_name(path), 200), what, wanted),
                      std::string(accepted)};
   };
+  if (has_extension(path, ".usdz")) return is("a USD scene", kByBlender);
   for (const Signature& signature : kSignatures) {
     if (bytes.starts_with(signature.start)) return is(signature.what, signature.accepted);
   }
@@ -138,32 +230,46 @@ std::optional<OtherFile> recognise_other_file(const std::string& path, std::stri
   if (has_extension(path, ".serialized") && bytes.starts_with("\x1c\x04"))
     return is("a mesh file of Mitsuba", scene_around(path, "serialized", read_serialized(bytes, 0, path, unheard)));
 
-  std::string_view text = trim(bytes.substr(0, 1 << 16));
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  std::string_view text = trim(bytes);
+  if (text.starts_with("\xEF\xBB\xBF")) text = trim(text.substr(3));
+  if (text.empty()) return is("empty", "a file with a <scene> in it");
   if (text.starts_with('<')) {
-    const std::string_view head = text.substr(0, 1000);
-    const bool html =
-        equal_ignoring_case(head.substr(0, 14), "<!doctype html") || equal_ignoring_case(head.substr(0, 5), "<html");
-    if (html) return is("a page of HTML", "a scene; was the page of a download saved in its place?");
+    const std::string_view head = text.substr(0, 4096);
+    if (contains(head, "<scene")) return std::nullopt;
+    if (contains_ignoring_case(head, "<!doctype html") || contains_ignoring_case(head, "<html") ||
+        contains_ignoring_case(head.substr(0, 200), "<head>"))
+      return is("a page of HTML", "a scene; was the page of a download saved in its place?");
     if (contains(head, "<COLLADA")) return is("a COLLADA scene", kByBlender);
+    if (contains(head, "<X3D")) return is("an X3D scene", kByBlender);
+    if (contains(head, "<svg")) return is("a drawing (SVG)", "a scene");
     return std::nullopt;
   }
-  if (text.empty()) return std::nullopt;
-  if (text.starts_with('{')) {
+  if (has_extension(path, ".stl") || is_binary_stl(bytes) || text.starts_with("solid "))
+    return is("an STL mesh", "a scene; save the mesh as PLY or OBJ for it");
+  if (bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP") return is("a WebP image", kImage);
+  if (bytes.starts_with("BM") && has_extension(path, ".bmp")) return is("a BMP image", kImage);
+  if (has_extension(path, ".tga")) return is("a TGA image", kImage);
+  if (is_binary(bytes)) return is("a file of binary data", "a scene of Mitsuba's XML");
+  if (contains(bytes.substr(0, 4096), "\0"sv) || bytes.starts_with("\xFE\xFF") || bytes.starts_with("\xFF\xFE"))
+    return std::nullopt;  // XML in another encoding
+  if (text.starts_with('{') || text.starts_with('[')) {
     if (contains(text, "\"asset\"") && (contains(text, "\"version\"") || has_extension(path, ".gltf")))
       return is("a glTF scene", kByBlender);
-    return is("JSON", "a scene of Mitsuba's XML");
+    if (!has_extension(path, ".pbrt")) return is("JSON", "a scene of Mitsuba's XML");
   }
   if (text.starts_with("version https://git-lfs"))
     return is("the address of a file in Git LFS", "the file itself; 'git lfs pull' fetches it");
-  if (has_line(text, {"WorldBegin", "Camera", "LookAt", "Film", "Integrator", "Sampler"}))
+  if (has_extension(path, ".pbrt") || has_pbrt_line(text))
     return is("a pbrt scene", "a scene of Mitsuba's XML; pbrt's files are not read");
-  if (has_extension(path, ".stl") || text.starts_with("solid "))
-    return is("an STL mesh", "a scene; save the mesh as PLY or OBJ for it");
   if (has_line(text, {"newmtl"})) return is("a material library of an OBJ mesh", "a scene of Mitsuba's XML");
+  if (has_line(text, {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "4OFF"}))
+    return is("an OFF mesh", "a scene; save the mesh as PLY or OBJ for it");
   if (has_line(text, {"v", "vn", "vt", "f", "mtllib"}))
     return is("a Wavefront OBJ mesh", scene_around(path, "obj", read_obj(bytes, path, unheard)));
-  return std::nullopt;
+  if (has_extension(path, ".py") || has_line(text, {"import", "from"}))
+    return is("a program in Python", "a scene of Mitsuba's XML; mi.xml.dict_to_xml writes one of a dictionary");
+  if (contains(text, "<scene")) return std::nullopt;  // XML behind something else, of which there is more to say
+  return is("plain text", "a scene of Mitsuba's XML, which begins with <scene version=\"3.0.0\">");
 }
 
 }  // namespace norrsken

@@ -1,6 +1,7 @@
 // Files that are no scenes.
 #include "formats/other_files.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,11 +52,53 @@ TEST(OtherFiles, AreKnownByTheirText) {
             "'a.xml' is the address of a file in Git LFS, not a scene");
 }
 
+TEST(OtherFiles, ScenesOfOtherPrograms) {
+  const auto scene = [](const char* name, const char* what) {
+    return fmt::format("'{}' is {} scene, not a scene of Mitsuba's XML", name, what);
+  };
+  for (const char* part : {"AttributeBegin\n", "Shape \"sphere\" \"float radius\" 1\n", "Include \"a.pbrt\"\n",
+                           "MakeNamedMaterial \"m\"\n", "Translate -1 0 .5\n"})
+    EXPECT_EQ(message("a.txt", part), scene("a.txt", "a pbrt")) << part;
+  EXPECT_EQ(message("a.pbrt", "# nothing\n"), scene("a.pbrt", "a pbrt"));
+  EXPECT_EQ(message("a.fbx", "Kaydara FBX Binary  \0"s), scene("a.fbx", "an FBX"));
+  EXPECT_EQ(message("a.fbx", "; FBX 7.3.0 project file\n"), scene("a.fbx", "an FBX"));
+  EXPECT_EQ(message("a.usdz", "PK\x03\x04"), scene("a.usdz", "a USD"));
+  EXPECT_EQ(message("a.x3d", "<?xml version=\"1.0\"?>\n<X3D>"), scene("a.x3d", "an X3D"));
+}
+
+TEST(OtherFiles, Meshes) {
+  EXPECT_EQ(message("a.obj", "#" + std::string(100000, 'x') + "\n" + std::string(1000, '#') + "\nv 1 2 3\n"),
+            "'a.obj' is a Wavefront OBJ mesh, not a scene");
+  std::string comments;
+  for (int i = 0; i < 5000; ++i) comments += "# a long licence\n\n";
+  EXPECT_EQ(message("a.obj", comments + "v 1 2 3\n"), "'a.obj' is a Wavefront OBJ mesh, not a scene");
+  EXPECT_EQ(message("a.off", "OFF\n3 1 0\n"), "'a.off' is an OFF mesh, not a scene");
+  EXPECT_EQ(message("a", "# x\nCOFF\n3 1 0\n"), "'a' is an OFF mesh, not a scene");
+  EXPECT_EQ(message("a", std::string(80, '\0') + "\x01\0\0\0"s + std::string(50, '\0')),
+            "'a' is an STL mesh, not a scene");
+}
+
+TEST(OtherFiles, NoScenesAtAll) {
+  EXPECT_EQ(message("a.xml", ""), "'a.xml' is empty, not a scene");
+  EXPECT_EQ(message("a.xml", "\xEF\xBB\xBF \n"), "'a.xml' is empty, not a scene");
+  EXPECT_EQ(message("a.xml", "404: Not Found"), "'a.xml' is plain text, not a scene");
+  EXPECT_EQ(message("a.xml", "Shape of things\nto come"), "'a.xml' is plain text, not a scene");
+  EXPECT_EQ(message("a.xml", "<?xml version=\"1.0\"?>\n<!-- x -->\n<HTML><body>404"),
+            "'a.xml' is a page of HTML, not a scene");
+  EXPECT_EQ(message("a.py", "import mitsuba as mi\n"), "'a.py' is a program in Python, not a scene");
+  EXPECT_EQ(message("a.gif", "GIF89a"), "'a.gif' is a GIF image, not a scene");
+  EXPECT_EQ(message("a.webp", "RIFF\x10\0\0\0WEBPVP8 "s), "'a.webp' is a WebP image, not a scene");
+  EXPECT_EQ(message("a", "\x01\x02\0\0xyz"s), "'a' is a file of binary data, not a scene");
+}
+
 TEST(OtherFiles, WhatMayBeASceneIsLeftToTheReader) {
-  for (const char* bytes : {"", " \n", "hello", "<scene/>", "<?xml version='1.0'?><scene/>", "\xEF\xBB\xBF<scene/>"})
+  for (const char* bytes :
+       {"<scene/>", "x <scene/>", "<!-- <html> --><scene/>", "<?xml version='1.0'?><scene/>", "\xEF\xBB\xBF<scene/>"})
     EXPECT_EQ(message("a.xml", bytes), "") << bytes;
   EXPECT_EQ(message("a.xml", "\xFF\xFE<\0s\0"s), "");
   EXPECT_EQ(message("a.xml", "<\0s\0"s), "");
+  EXPECT_EQ(message("a.xml", "\0\0\0<"s), "");
+  EXPECT_EQ(message("a.xml", "\xFF\xFE\0\0<\0\0\0"s), "");
 }
 
 TEST(OtherFiles, OfAMeshThereIsASceneThatShowsIt) {

@@ -91,6 +91,12 @@ class BodyReader {
     if (complaints_.any()) return std::nullopt;
     if (mesh_.triangles.empty()) return without_faces();
     warn_of_intricate(faces_.finish(), complaints_);
+    if (faces_.with_texcoords > 0 && faces_.without_texcoords > 0) {
+      complaints_.flaw_at({}, MeshFlaw::no_texcoords,
+                          fmt::format("{} of {} faces have no texture coordinates: they get (0, 0)",
+                                      faces_.without_texcoords, faces_.with_texcoords + faces_.without_texcoords));
+      complaints_.tell_flaws();
+    }
     leave_out_not_finite(mesh_);
     return std::move(mesh_);
   }

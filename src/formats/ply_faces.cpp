@@ -10,6 +10,7 @@ namespace norrsken {
 
 void PlyFaces::add() {
   if (corners.size() < 3) return;
+  if (have_texcoords) ++(texcoords.empty() ? without_texcoords : with_texcoords);
   if (have_texcoords) texcoords.resize(2 * corners.size());
   const Fan fan{mesh_.triangles.size(), corners.size()};
   for (std::size_t i = 2; i < corners.size(); ++i) {
@@ -77,7 +78,7 @@ void PlyFaces::split_vertices() {
 
 const PolygonCutter& PlyFaces::finish() {
   for (const Fan& fan : fans_to_come_) cut(fan);
-  if (!corner_texcoords_.empty()) split_vertices();
+  if (with_texcoords > 0) split_vertices();
   return cutter_;
 }
 

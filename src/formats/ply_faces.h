@@ -14,10 +14,12 @@ class PlyFaces {
   /// Faces become triangles of this mesh, whose vertices may come before or after them.
   explicit PlyFaces(MeshData& mesh) : mesh_(mesh) {}
 
-  /// The face at hand: vertices, and u and v of each corner; or no texture coordinates, which are then 0.
+  /// The face at hand: vertices, and u and v of each corner; or no texture coordinates, which are then 0. Where no face has
+  /// any, it is as if there could be none.
   Array<std::uint32_t> corners;
   Array<float> texcoords;
-  bool have_texcoords = false;  ///< whether any face may
+  bool have_texcoords = false;                            ///< whether any face may
+  std::size_t with_texcoords = 0, without_texcoords = 0;  ///< faces that do and do not, if any may
 
   /// Adds the face at hand, if it has three corners or more.
   void add();

@@ -128,52 +128,6 @@ TEST(Ply, TextureCoordinatesGoByManyNames) {
   }
 }
 
-/// Vertices with a normal and a weight, and faces with texture coordinates for each corner, as MeshLab writes them.
-std::string with_corner_texcoords(const std::string& vertices, const std::string& faces, int face_count) {
-  const auto lines = std::to_string(std::ranges::count(vertices, '\n'));
-  return "ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex " + lines +
-         "\nproperty float x\nproperty float y\nproperty float z\nproperty float w_0\nelement face " +
-         std::to_string(face_count) +
-         "\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty int texnumber\n"
-         "property float id_0\nend_header\n" +
-         vertices + faces;
-}
-
-TEST(Ply, TextureCoordinatesOfCornersSplitVertices) {
-  const MeshData mesh =
-      read(with_corner_texcoords("0 0 0 10\n1 0 0 11\n1 1 0 12\n0 1 0 13\n",
-                                 "3 0 1 2 6 0 0 1 0 1 1 0 7\n3 0 2 3 6 0 0 0.5 0.5 0 1 0 8\n3 1 2 3 0 0 9\n", 3));
-  ASSERT_EQ(mesh.triangles.size(), 3u);
-  ASSERT_EQ(mesh.positions.size(), 8u) << "vertex 0 once, 1 twice, 2 three times, 3 twice";
-  ASSERT_EQ(mesh.texcoords.size(), 8u);
-  EXPECT_EQ(mesh.triangles[0][0], mesh.triangles[1][0]);
-  EXPECT_EQ(mesh.texcoords[mesh.triangles[0][2]], (std::array<float, 2>{1, 1}));
-  EXPECT_EQ(mesh.texcoords[mesh.triangles[1][1]], (std::array<float, 2>{0.5f, 0.5f}));
-  EXPECT_EQ(mesh.texcoords[mesh.triangles[2][1]], (std::array<float, 2>{0, 0})) << "a face without any";
-  for (const auto& t : {mesh.triangles[0][2], mesh.triangles[1][1], mesh.triangles[2][1]}) {
-    EXPECT_EQ(mesh.positions[t], (std::array<float, 3>{1, 1, 0}));
-    EXPECT_EQ(mesh.attributes.at(0).values.at(t), 12);
-  }
-  EXPECT_EQ(mesh.attributes.at(1).values, (Array<float>{7, 8, 9}));
-}
-
-TEST(Ply, CornersOfConcavePolygonsKeepTheirTextureCoordinates) {
-  std::string vertices = kL;
-  for (std::size_t i = 0; (i = vertices.find('\n', i)) != std::string::npos; i += 3) vertices.insert(i, " 1");
-  // Twice the position.
-  const MeshData mesh = read(with_corner_texcoords(vertices, "6 1 2 3 4 5 0 12 6 0 6 2 2 2 2 6 0 6 0 0 0 5\n", 1));
-  EXPECT_EQ(area2(mesh), 10);
-  ASSERT_EQ(mesh.positions.size(), 6u);
-  for (std::size_t v = 0; v < 6; ++v)
-    EXPECT_EQ(mesh.texcoords.at(v), (std::array<float, 2>{2 * mesh.positions[v][0], 2 * mesh.positions[v][1]}));
-}
-
-TEST(Ply, WrongNumbersOfTextureCoordinatesAreRefused) {
-  EXPECT_EQ(complaints(with_corner_texcoords("0 0 0 1\n1 0 0 1\n1 1 0 1\n", "3 0 1 2 4 0 0 1 0 0 0\n", 1)),
-            "a.ply:18:21: error: face 0 has 4 texture coordinates for 3 vertices\n   18 | 3 0 1 2 4 0 0 1 0 0 0\n"
-            "      |                     ^\naccepted: two for each, or none");
-}
-
 TEST(Ply, WhatIsNotFiniteIsLeftOut) {
   const auto [mesh, warning] =
       read_with_warnings(header("ascii", "4", "2") + kCorners + "nan inf 0\n3 0 1 2\n3 0 2 3\n");

@@ -1,8 +1,11 @@
 #include "formats/xml_encoding.h"
 
 #include <fmt/format.h>
+#include <iconv.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -13,7 +16,8 @@
 namespace norrsken {
 namespace {
 
-constexpr const char* kAccepted = "UTF-8, UTF-16, ISO-8859-1, windows-1252";
+constexpr const char* kAccepted =
+    "UTF-8, UTF-16, UTF-32, or what a first line <?xml version=\"1.0\" encoding=\"...\"?> names, such as ISO-8859-1";
 
 // Bytes 0x80 to 0x9f of windows-1252. Source: WHATWG, Encoding Standard.
 constexpr char32_t kWindows1252[32] = {0x20AC, 0x0081, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
@@ -35,6 +39,8 @@ void append_utf8(std::string& text, char32_t c) {
     put(0xF0 | (c >> 18)), put(0x80 | ((c >> 12) & 0x3F)), put(0x80 | ((c >> 6) & 0x3F)), put(0x80 | (c & 0x3F));
   }
 }
+
+constexpr std::string_view kWide[] = {"UTF-16", "UTF-32", "UCS", "ISO-10646"};
 
 enum class ByteOrder { big, little };
 
@@ -58,6 +64,40 @@ std::optional<std::string> utf8_of_utf16(std::string_view bytes, ByteOrder order
     append_utf8(text, c);
   }
   return text;
+}
+
+// Empty if a character is cut off or is none.
+std::optional<std::string> utf8_of_utf32(std::string_view bytes, ByteOrder order) {
+  if (bytes.size() % 4 != 0) return std::nullopt;
+  std::string text;
+  for (std::size_t at = 0; at < bytes.size(); at += 4) {
+    char32_t c = 0;
+    for (std::size_t i = 0; i < 4; ++i) c = c << 8 | byte_at(bytes, at + (order == ByteOrder::big ? i : 3 - i));
+    if (c > 0x10FFFF || (c >= 0xD800 && c < 0xE000)) return std::nullopt;
+    append_utf8(text, c);
+  }
+  return text;
+}
+
+// Through the C library, which knows some hundred encodings. Empty if it does not know this one, or not these bytes.
+std::optional<std::string> utf8_of(std::string_view bytes, const std::string& encoding) {
+  const iconv_t converter = iconv_open("UTF-8", encoding.c_str());
+  if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;
+  std::string input(bytes), text;
+  char* from = input.data();
+  std::size_t left = input.size();
+  std::array<char, 4096> buffer;
+  bool good = true;
+  for (bool flushed = false; good && !flushed;) {
+    flushed = left == 0;
+    char* to = buffer.data();
+    std::size_t room = buffer.size();
+    const std::size_t status = iconv(converter, flushed ? nullptr : &from, flushed ? nullptr : &left, &to, &room);
+    text.append(buffer.data(), buffer.size() - room);
+    good = status != static_cast<std::size_t>(-1) || errno == E2BIG;
+  }
+  iconv_close(converter);
+  return good ? std::optional(std::move(text)) : std::nullopt;
 }
 
 std::string utf8_of_single_bytes(std::string_view bytes, bool windows_1252) {
@@ -93,19 +133,23 @@ bool decode_xml(std::string& contents, const std::string& path, Diagnostics& dia
   const SourceText source(path, bytes);
   const auto begins_with = [bytes](std::string_view start) { return bytes.starts_with(start); };
   using namespace std::string_view_literals;
-  if (begins_with("\xFF\xFE\0\0"sv) || begins_with("\0\0\xFE\xFF"sv) || begins_with("\0\0\0<"sv) ||
-      begins_with("<\0\0\0"sv)) {
-    diagnostics.error(source.location(), "the file is UTF-32", kAccepted);
+  const auto damaged = [&](const char* encoding) {
+    diagnostics.error(source.location(), fmt::format("the file is {}, but damaged or cut off", encoding), kAccepted);
     return false;
+  };
+  const bool marked_32 = begins_with("\xFF\xFE\0\0"sv) || begins_with("\0\0\xFE\xFF"sv);
+  if (marked_32 || begins_with("\0\0\0<"sv) || begins_with("<\0\0\0"sv)) {
+    auto text =
+        utf8_of_utf32(bytes.substr(marked_32 ? 4 : 0), begins_with("\0"sv) ? ByteOrder::big : ByteOrder::little);
+    if (!text) return damaged("UTF-32");
+    contents = std::move(*text);
+    return true;
   }
   const bool big = begins_with("\xFE\xFF") || begins_with("\0<"sv);
   if (big || begins_with("\xFF\xFE") || begins_with("<\0"sv)) {
     const std::size_t mark = begins_with("<") || begins_with("\0"sv) ? 0 : 2;
     auto text = utf8_of_utf16(bytes.substr(mark), big ? ByteOrder::big : ByteOrder::little);
-    if (!text) {
-      diagnostics.error(source.location(), "the file is UTF-16, but damaged or cut off", kAccepted);
-      return false;
-    }
+    if (!text) return damaged("UTF-16");
     contents = std::move(*text);
     return true;
   }
@@ -114,7 +158,14 @@ bool decode_xml(std::string& contents, const std::string& path, Diagnostics& dia
   } else if (const std::string_view encoding = declared_encoding(bytes); !encoding.empty()) {
     const bool windows = is_one_of(encoding, {"windows-1252", "cp1252", "cp-1252"});
     const bool latin = is_one_of(encoding, {"ISO-8859-1", "ISO8859-1", "ISO_8859-1", "latin1", "latin-1", "l1"});
-    if (windows || latin) contents = utf8_of_single_bytes(bytes, windows);
+    // A declared encoding of several bytes a character is a slip: the declaration could not be read in it.
+    const bool is_wide = std::ranges::any_of(
+        kWide, [&](std::string_view start) { return equal_ignoring_case(encoding.substr(0, start.size()), start); });
+    if (windows || latin) {
+      contents = utf8_of_single_bytes(bytes, windows);
+    } else if (!is_wide) {
+      if (auto text = utf8_of(bytes, std::string(encoding))) contents = std::move(*text);
+    }
   }
   const auto invalid = find_invalid_utf8(contents);
   if (!invalid) return true;
@@ -124,7 +175,7 @@ bool decode_xml(std::string& contents, const std::string& path, Diagnostics& dia
   diagnostics.error(SourceText(path, contents).location(*invalid),
                     fmt::format("byte 0x{:02x} is not UTF-8{}", byte_at(contents, *invalid),
                                 is_other ? fmt::format(", and the encoding {} is not known", quoted(declared)) : ""),
-                    fmt::format("{}; a first line <?xml version=\"1.0\" encoding=\"...\"?> tells it", kAccepted));
+                    kAccepted);
   return false;
 }
 

@@ -28,6 +28,11 @@ std::string decoded(std::string bytes) {
   return bytes;
 }
 
+// An element in an encoding as it is declared.
+std::string with(const std::string& encoding, const std::string& text) {
+  return "<?xml version=\"1.0\" encoding=\"" + encoding + "\"?><a b='" + text + "'/>";
+}
+
 const std::string kMarkBig = "\xFE\xFF", kMarkLittle = "\xFF\xFE";
 
 TEST(XmlEncoding, Utf16WithAndWithoutAMark) {
@@ -44,14 +49,9 @@ TEST(XmlEncoding, BrokenUtf16) {
   EXPECT_EQ(decoded(kMarkLittle + "<"), damaged);
   for (const std::u16string text : {u"<\xD800", u"<\xD800x", u"<\xDC00\xD800"})
     EXPECT_EQ(decoded(kMarkBig + utf16(text, Order::big)), damaged);
-  EXPECT_EQ(decoded(std::string("\xFF\xFE\0\0<\0\0\0", 8)), "error: the file is UTF-32");
-  EXPECT_EQ(decoded(std::string("\0\0\0<", 4)), "error: the file is UTF-32");
 }
 
 TEST(XmlEncoding, SingleBytesAsTheyAreDeclared) {
-  const auto with = [](const std::string& encoding, const std::string& text) {
-    return "<?xml version=\"1.0\" encoding=\"" + encoding + "\"?><a b='" + text + "'/>";
-  };
   for (const char* name : {"ISO-8859-1", "iso-8859-1", "latin1"})
     EXPECT_EQ(decoded(with(name, "caf\xE9 \xA4")), with(name, "caf\xC3\xA9 \xC2\xA4"));
   EXPECT_EQ(decoded(with("windows-1252", "\x80\x93\xFF")), with("windows-1252", "\xE2\x82\xAC\xE2\x80\x9C\xC3\xBF"));
@@ -64,15 +64,40 @@ TEST(XmlEncoding, SingleBytesAsTheyAreDeclared) {
       << "the mark wins";
 }
 
+TEST(XmlEncoding, TheCLibraryKnowsMany) {
+  EXPECT_EQ(decoded(with("ISO-8859-15", "\xA4")), with("ISO-8859-15", "\xE2\x82\xAC"));
+  EXPECT_EQ(decoded(with("Shift_JIS", "\x83\x65\x83\x58")), with("Shift_JIS", "\xE3\x83\x86\xE3\x82\xB9"));
+  EXPECT_EQ(decoded(with("GBK", "\xD6\xD0")), with("GBK", "\xE4\xB8\xAD"));
+  EXPECT_EQ(decoded(with("ISO-8859-15", std::string(10000, '\xE9'))).size(), with("ISO-8859-15", "").size() + 20000);
+  // Half of a character.
+  EXPECT_EQ(decoded(with("Shift_JIS", "\x83")).substr(0, 29), "error: byte 0x83 is not UTF-8");
+}
+
+TEST(XmlEncoding, Utf32) {
+  const auto utf32 = [](std::u32string_view text, Order order) {
+    std::string bytes;
+    for (const char32_t c : text) {
+      for (int i = 0; i < 4; ++i) bytes += static_cast<char>(c >> 8 * (order == Order::big ? 3 - i : i) & 255u);
+    }
+    return bytes;
+  };
+  for (const Order order : {Order::big, Order::little}) {
+    EXPECT_EQ(decoded(utf32(U"\xFEFF<a b='\xE9\x1F600'/>", order)), "<a b='\xC3\xA9\xF0\x9F\x98\x80'/>");
+    EXPECT_EQ(decoded(utf32(U"<a/>", order)), "<a/>");
+    EXPECT_EQ(decoded(utf32(U"<a/>", order) + "x"), "error: the file is UTF-32, but damaged or cut off");
+    EXPECT_EQ(decoded(utf32(U"<a\x110000", order)), "error: the file is UTF-32, but damaged or cut off");
+  }
+}
+
 TEST(XmlEncoding, OthersAreRefusedAtTheirFirstByte) {
   EXPECT_EQ(
-      complaints_about("<?xml version=\"1.0\" encoding=\"Shift_JIS\"?>\n<scene version=\"3.0.0\" a=\"\x83\x65\"/>"),
-      "room.xml:2:27: error: byte 0x83 is not UTF-8, and the encoding 'Shift_JIS' is not known\n"
+      complaints_about("<?xml version=\"1.0\" encoding=\"Klingon\"?>\n<scene version=\"3.0.0\" a=\"\x83\x65\"/>"),
+      "room.xml:2:27: error: byte 0x83 is not UTF-8, and the encoding 'Klingon' is not known\n"
       "    2 | <scene version=\"3.0.0\" a=\"\xEF\xBF\xBD"
       "e\"/>\n"
       "      |                           ^\n"
-      "accepted: UTF-8, UTF-16, ISO-8859-1, windows-1252; a first line <?xml version=\"1.0\" encoding=\"...\"?> tells "
-      "it");
+      "accepted: UTF-8, UTF-16, UTF-32, or what a first line <?xml version=\"1.0\" encoding=\"...\"?> names, such as "
+      "ISO-8859-1");
   EXPECT_EQ(decoded("<a b='\xE9'/>"), "error: byte 0xe9 is not UTF-8");
   EXPECT_EQ(decoded("<?xml encoding='ISO-8859-1'"), "<?xml encoding='ISO-8859-1'");
 }

@@ -255,7 +255,8 @@ TEST(VolumeIntegrators, AreNothingForACameraInAMedium) {
 
 TEST(IntegratorHost, RefusesOthers) {
   EXPECT_THAT(compile_integrator(integrator("prb", "")).messages(),
-              ElementsAre("error: integrator 'prb' is not supported yet [aov, depth, direct, moment, path, ptracer, "
+              ElementsAre("error: integrator 'prb' is for differentiable rendering, which this program does not do "
+                          "[aov, depth, direct, moment, path, ptracer, "
                           "volpath, volpathmis, whitted]"));
   EXPECT_THAT(compile_integrator(integrator("pth", "")).messages(),
               ElementsAre("error: unknown integrator 'pth', did you mean 'path'? [aov, depth, direct, moment, path, "

@@ -3,7 +3,8 @@
 // Parameters
 //   radiance   color or texture, W / (m^2 sr), at least 0 (default 1)
 // One light per triangle, sphere, disk and cylinder; two triangles of a shape that make a parallelogram are one light, so
-// that it is chosen and sampled as a whole.
+// that it is chosen and sampled as a whole. The front is that of the geometric normal, as in Mitsuba: normals that a coarse
+// mesh is smoothed by change nothing about where it shines to, and its facets are seen.
 #include <fmt/format.h>
 
 #include "compile/plugins.h"

@@ -69,7 +69,7 @@ TEST(SpotEmitter, RefusesWhatMakesNoSense) {
   EXPECT_THAT(compile_kind("spot", R"(<float name="cutoff_angle" value="180"/>)").messages(),
               ElementsAre("error: 'cutoff_angle' is 180 [a number above 0 and below 180]"));
   EXPECT_THAT(compile_kind("spot", R"(<float name="beam_width" value="25"/>)").messages(),
-              ElementsAre("error: 'beam_width' is 25 [a number from 0 to 20]"));
+              ElementsAre("warning: 'beam_width' is 25, which is taken for 20 [a number from 0 to 20]"));
   EXPECT_THAT(compile_kind("spot", R"(<string name="beam_width" value="25"/>)").messages(),
               ElementsAre("error: 'beam_width' is a string [float]"));
   EXPECT_THAT(

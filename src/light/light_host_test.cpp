@@ -186,10 +186,10 @@ TEST(EmitterHost, RefusesOthers) {
 }
 
 TEST(EmitterHost, BrokenShapesEmittersAreCheckedToo) {
-  EXPECT_THAT(compile_elements(kSensor + R"(<shape type="sphere"><float name="radius" value="0"/>)"
+  EXPECT_THAT(compile_elements(kSensor + R"(<shape type="sphere"><float name="radius" value="-1"/>)"
                                          R"(<emitter type="area"><float name="power" value="1"/></emitter></shape>)")
                   .messages(),
-              ElementsAre("error: 'radius' is 0 [a number above 0]",
+              ElementsAre("error: 'radius' is -1 [a number of at least 0]",
                           "error: unused parameter 'power' of emitter 'area' [radiance, sampling_weight]"));
 }
 

@@ -24,7 +24,7 @@ namespace norrsken {
 void compile_emitter_spot(Parameters& p, Builder& builder, std::uint32_t /*shape*/) {
   const glm::dvec3 intensity = p.color("intensity", glm::dvec3(1), 0, kMaxEmission, /*emission=*/true);
   const double cutoff_degrees = p.number("cutoff_angle", 20, 0, 180, Ends::open);
-  const double beam_degrees = p.number("beam_width", 0.75 * cutoff_degrees, 0, cutoff_degrees);
+  const double beam_degrees = p.number_clamped("beam_width", 0.75 * cutoff_degrees, 0, cutoff_degrees);
   const glm::dmat4 to_world = p.transform("to_world");
   const std::optional<Texture> texture = slide_texture(p, builder, "texture");
   if (!texture) p.color("texture", glm::dvec3(1), 0, kMaxEmission);  // so that it counts as asked for

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "film/image_file.h"
+#include "base/atomic_file.h"
 
 namespace norrsken {
 

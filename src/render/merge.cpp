@@ -200,4 +200,10 @@ Result<MergedRender> merge_renders(const std::vector<std::string>& files, bool l
   return merged;
 }
 
+bool is_checkpoint(const std::string& path) {
+  const SectionReader::State state = identity_of_render(path).state;
+  return state == SectionReader::State::readable || state == SectionReader::State::other_version ||
+         state == SectionReader::State::damaged;
+}
+
 }  // namespace norrsken

@@ -45,6 +45,7 @@ Metadata settings_of(const Scene& scene, const RenderOptions& options, const std
   Metadata settings = {{"Software", "norrsken " NORRSKEN_VERSION},
                        {"norrsken.scene", scene.tables().file},
                        {"norrsken.scene_hash", info.hash},
+                       {"norrsken.sensor", fmt::format("{} {}", frame.sensor, frame.sensor_id)},
                        {"norrsken.integrator", frame.integrator_name},
                        {"norrsken.max_depth", fmt::to_string(frame.integrator.max_depth)},
                        {"norrsken.rr_depth", fmt::to_string(frame.integrator.rr_depth)},
@@ -56,7 +57,7 @@ Metadata settings_of(const Scene& scene, const RenderOptions& options, const std
   if (!parameters.empty()) settings["norrsken.parameters"] = parameters;
   if (!frame.changes.empty()) settings["norrsken.camera"] = frame.changes;
   if (options.adaptive) settings["norrsken.adaptive"] = "true";
-  for (auto& [name, text] : settings) text = printable(text);
+  for (auto& [name, text] : settings) text = printable(trim(text));
   return settings;
 }
 

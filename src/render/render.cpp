@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <limits>
 #include <mutex>
@@ -36,6 +37,19 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// While it lives, the flag has this value.
+class Temporarily {
+ public:
+  Temporarily(std::atomic<bool>& flag, bool value) : flag_(flag), before_(flag.exchange(value)) {}
+  ~Temporarily() { flag_.store(before_); }
+  Temporarily(const Temporarily&) = delete;
+  Temporarily& operator=(const Temporarily&) = delete;
+
+ private:
+  std::atomic<bool>& flag_;
+  bool before_;
 };
 
 FilmSettings film_settings(const Scene& scene) {
@@ -197,6 +211,7 @@ class RenderSession final : public Render {
   }
 
   void cancel() noexcept override { cancelled_.store(true, std::memory_order_relaxed); }
+  bool is_sampling() const noexcept override { return is_sampling_.load(std::memory_order_relaxed); }
 
   Image image(bool statistics, const std::optional<ImageRegion>& region) const override {
     FilmImage image(film_, region_of(region), statistics, has_features_ ? work_.feature_samples.count() : 0);
@@ -265,7 +280,9 @@ class RenderSession final : public Render {
     };
     while (!work_.done() && goes_on()) {
       const Stopwatch since_save;
+      // Whoever looks at the film takes no samples, though its workers do.
       const Crew::Tick tick{tick_interval(), [&] {
+                              const Temporarily looking(is_sampling_, false);
                               if (since_progress.seconds() >= kProgressSeconds) {
                                 since_progress = {};
                                 tell();
@@ -275,11 +292,15 @@ class RenderSession final : public Render {
                               return goes_on() && (!checkpoint_ || since_save.seconds() < checkpoint_seconds_);
                             }};
       if (!has_features_) {
+        const Temporarily sampling(is_sampling_, true);
         if (!crew.run_features(tick)) return give_up();
         has_features_ = work_.features_done();
         watch = {};  // figures, and the time that there is, are those of the image, not of its layers
       }
-      if (has_features_ && !crew.run(tick)) return give_up();
+      if (has_features_) {
+        const Temporarily sampling(is_sampling_, true);
+        if (!crew.run(tick)) return give_up();
+      }
       made_.seconds = seconds_before_ + watch.seconds();
       save();
     }
@@ -329,7 +350,7 @@ class RenderSession final : public Render {
   mutable std::mutex crew_mutex_;  ///< for what follows, of the threads that look
   std::unique_ptr<Crew> crew_;     ///< while there is one at work
   Metadata metadata_;
-  std::atomic<bool> cancelled_{false};
+  std::atomic<bool> cancelled_{false}, is_sampling_{false};
 };
 
 }  // namespace

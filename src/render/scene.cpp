@@ -40,14 +40,18 @@ Result<Scene> Scene::with(const ViewOptions& options) const {
 
 SceneInfo Scene::info() const {
   SceneInfo info = tables().info;
+  if (frame_->is_as_loaded) return info;
   const auto others = info.items.begin() + static_cast<std::ptrdiff_t>(tables().frame_items);
   info.items.erase(info.items.begin(), others);
+  // That of a scene without a sensor comes last, when its bounds are known.
+  std::erase_if(info.items, [](const SceneInfo::Item& item) { return item.kind == "sensor"; });
   info.items.insert(info.items.begin(), frame_->items.begin(), frame_->items.end());
   info.width = frame_->film.width, info.height = frame_->film.height;
   info.samples_per_pixel = static_cast<int>(frame_->sampler.samples_per_pixel);
   info.max_depth = frame_->integrator.max_depth;
   info.rr_depth = frame_->integrator.rr_depth;
   info.emitter_samples = frame_->integrator.emitter_samples;
+  info.sensor = frame_->sensor, info.sensor_id = frame_->sensor_id;
   info.integrator = frame_->integrator_name, info.sampler = frame_->sampler_name;
   info.memory.film = frame_->film_bytes, info.memory.image = frame_->image_bytes;
   return info;

@@ -1,6 +1,9 @@
 #include "render/scene_view.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace norrsken {
 namespace {
@@ -41,13 +44,36 @@ void set_frame_from(const Frame& frame, const SceneTables& tables, SceneView& vi
   view.material_codes = lists_choices ? 1u << tables.material_choices : SceneView().material_codes;
 }
 
+/// Planes widen their polygons by what rounding does to coordinates of the scene: too much for a shape that is far from the
+/// origin and small. At a hundred times its size a triangle has grown by 0.1 % of its area, at 3000 times by 2 %.
+bool is_too_far_for_planes(const SceneTables& tables) {
+  constexpr double kFarthest = 100;  // of a shape's own size
+  for (const ShapeRecord& shape : tables.shapes) {
+    if (shape.first_primitive >= tables.triangle_count()) continue;
+    double lower[3], upper[3], size2 = 0, farthest = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::numeric_limits<double>::infinity(), upper[axis] = -lower[axis];
+      for (std::size_t i = 0; i < std::size_t{3} * shape.primitive_count; ++i) {
+        const std::size_t vertex = tables.triangle_vertices[std::size_t{3} * shape.first_primitive + i];
+        const double at = tables.positions[3 * vertex + axis];
+        lower[axis] = std::min(lower[axis], at), upper[axis] = std::max(upper[axis], at);
+        farthest = std::max(farthest, std::abs(at));
+      }
+      size2 += (upper[axis] - lower[axis]) * (upper[axis] - lower[axis]);
+    }
+    if (farthest > kFarthest * std::sqrt(size2)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes,
                        Diagnostics& diagnostics) {
   const std::size_t primitives = tables.surfaces.size();
   const bool embree_only = !tables.analytics.empty() || tables.group_count > 0;
-  const AccelKind automatic = primitives <= planes_up_to(lanes) && !embree_only ? AccelKind::planes : AccelKind::embree;
+  const bool suits_planes = primitives <= planes_up_to(lanes) && !embree_only && !is_too_far_for_planes(tables);
+  const AccelKind automatic = suits_planes ? AccelKind::planes : AccelKind::embree;
   if (name == "auto") return automatic;
   for (const auto& accel : kAccels) {
     if (name != accel.name) continue;

@@ -1,7 +1,9 @@
-#include "norrsken/description.h"
+#include "scene/description.h"
 
 #include <algorithm>
 #include <array>
+
+#include "base/text.h"
 
 namespace norrsken {
 namespace {
@@ -15,6 +17,10 @@ constexpr std::array<const char*, std::variant_size_v<Property::Value>> kTypes =
 
 std::string type_of(const Property& property) {
   return property.type.empty() ? kTypes[property.value.index()] : property.type;
+}
+
+std::string name_of(const Node& node) {
+  return node.plugin.empty() ? node.kind : node.kind + " " + quoted(node.plugin);
 }
 
 Node& Node::set(std::string property, Property::Value value) {

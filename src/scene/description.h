@@ -32,4 +32,7 @@ inline Property::Transform to_transform(const glm::dmat4& matrix) {
   return transform;
 }
 
+/// "bsdf 'diffuse'"; the scene has no plugin.
+std::string name_of(const Node& node);
+
 }  // namespace norrsken

@@ -68,6 +68,18 @@ bool FileSystem::is_folder(const std::string& path) const {
   return std::any_of(files.begin(), files.end(), inside);
 }
 
+std::vector<std::string> FileSystem::list(const std::string& folder) const {
+  constexpr std::size_t kMost = 100000;
+  std::vector<std::string> names;
+  if (is_builtin(folder)) return names;  // `accepted_files` has them all
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error), end;
+  for (; !error && entry != end && names.size() < kMost; entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
 std::optional<FileContents> read_counted(const FileSystem& files, const std::string& path, std::string& error) {
   // Larger ones are refused by what they are.
   FileContents contents{MemoryReservation(std::min<std::uint64_t>(files.size(path), kMaxFileBytes)), {}};
@@ -109,10 +121,6 @@ std::string resolve_file(const FileSystem& files, const std::string& name, const
     }
   }
   return found;
-}
-
-std::string two_files_of_one_name(const std::string& name, const std::string& found, const std::string& other) {
-  return fmt::format("{} is {} here, and there is {} too", quoted(name, 200), quoted(found, 200), quoted(other, 200));
 }
 
 std::string accepted_files(const std::string& name, const std::vector<std::string>& all_folders) {

@@ -27,6 +27,8 @@ class FileSystem {
   virtual bool is_folder(const std::string& path) const;
   /// Whether its paths are those of the disk.
   virtual bool is_disk() const { return true; }
+  /// Names of what is in a folder, sorted; of very many the first that come.
+  virtual std::vector<std::string> list(const std::string& folder) const;
 };
 
 /// Whether the path means a file compiled into the program.
@@ -51,9 +53,6 @@ std::string normal_path(const std::string& path);
 /// name which comes later.
 std::string resolve_file(const FileSystem& files, const std::string& name, const std::vector<std::string>& folders,
                          std::string* other = nullptr);
-
-/// The warning of such another file: "'a.obj' is 'a.obj' here, and there is 'parts/a.obj' too".
-std::string two_files_of_one_name(const std::string& name, const std::string& found, const std::string& other);
 
 /// What `resolve_file` would have found, for a complaint: "a file in dir/, lib"; of built-in files, which there are.
 std::string accepted_files(const std::string& name, const std::vector<std::string>& folders);

@@ -40,6 +40,18 @@ class MemoryFiles : public FileSystem {
     return inside != files_.end() && inside->first.starts_with(folder);
   }
 
+  std::vector<std::string> list(const std::string& folder) const override {
+    std::string start = folder.empty() ? "" : normal_path(folder);
+    if (!start.empty() && !start.ends_with('/')) start += '/';
+    std::vector<std::string> names;
+    for (const auto& [path, contents] : files_) {
+      if (!path.starts_with(start)) continue;
+      const std::string name = path.substr(start.size(), path.find('/', start.size()) - start.size());
+      if (names.empty() || names.back() != name) names.push_back(name);
+    }
+    return names;
+  }
+
  private:
   std::map<std::string, std::string> files_;
 };

@@ -12,9 +12,8 @@
 #include "base/numbers.h"
 #include "base/text.h"
 #include "color/spectrum.h"
-#include "scene/base_parameters.h"
 #include "scene/constant_spectrum.h"
-#include "scene/file_system.h"
+#include "scene/find_file.h"
 #include "scene/parameters_find.h"
 
 namespace norrsken {
@@ -24,11 +23,6 @@ namespace {
 constexpr double kMaxNumber = 1e30;
 // |det| below this share of the product of the column lengths is singular but for rounding.
 constexpr double kSingular = 1e-12;
-
-// "bsdf 'diffuse'"; the scene has no plugin.
-std::string name_of(const Node& node) {
-  return node.plugin.empty() ? node.kind : fmt::format("{} {}", node.kind, quoted(node.plugin));
-}
 
 std::string range_text(std::string_view noun, std::string_view lower, std::string_view upper, bool has_min,
                        bool has_max, Ends ends) {
@@ -46,8 +40,6 @@ std::string number_range(std::string_view noun, double min, double max, double v
   return range_text(noun, fmt::format("{:g}", min), fmt::format("{:g}", max), min > -kMaxCoordinate || value < min,
                     max < kMaxCoordinate || value > max, ends);
 }
-
-std::vector<std::string> list(const std::set<std::string, std::less<>>& words) { return {words.begin(), words.end()}; }
 
 bool is_finite(const glm::dmat4& m) {
   for (int column = 0; column < 4; ++column) {
@@ -150,25 +142,57 @@ double Parameters::number_of(const Property& property, std::string_view name, do
                              Ends ends) {
   min = std::max(min, -kMaxNumber);
   max = std::min(max, kMaxNumber);
-  double value = 0;
-  bool is_number = true;
-  if (const double* real = std::get_if<double>(&property.value)) {
-    value = *real;
-  } else if (const std::int64_t* integer = std::get_if<std::int64_t>(&property.value)) {
-    value = static_cast<double>(*integer);
-  } else {
-    const auto rgb = color_of(property, name, -kMaxNumber, kMaxNumber, false);
-    if (!rgb) return fallback;
-    // The mean of three that are the same is not always the same.
-    value = rgb->x == rgb->y && rgb->y == rgb->z ? rgb->x : (rgb->x + rgb->y + rgb->z) / 3;
-    is_number = false;
-  }
+  const std::optional<double> known = value_of(property, name);
+  if (!known) return fallback;
+  const double value = *known;
   const bool is_above = ends == Ends::closed ? value >= min : value > min;
   const bool is_below = ends == Ends::open ? value < max : value <= max;
   if (is_above && is_below) return value;
-  error(name, fmt::format("'{}' is {}{}{}", name, value, is_number ? "" : " in the mean", property.origin),
+  const bool is_mean =
+      !std::holds_alternative<double>(property.value) && !std::holds_alternative<std::int64_t>(property.value);
+  error(name, fmt::format("'{}' is {}{}{}", name, value, is_mean ? " in the mean" : "", property.origin),
         number_range("a number", min, max, value, ends));
   return fallback;
+}
+
+std::optional<double> Parameters::value_of(const Property& property, std::string_view name) {
+  if (const double* real = std::get_if<double>(&property.value)) return *real;
+  if (const std::int64_t* integer = std::get_if<std::int64_t>(&property.value)) return static_cast<double>(*integer);
+  const auto rgb = color_of(property, name, -kMaxNumber, kMaxNumber, false);
+  if (!rgb) return std::nullopt;
+  // The mean of three that are the same is not always the same.
+  return rgb->x == rgb->y && rgb->y == rgb->z ? rgb->x : (rgb->x + rgb->y + rgb->z) / 3;
+}
+
+double Parameters::number_clamped(std::string_view name, double fallback, double min, double max,
+                                  Diagnostic::Severity severity) {
+  note(name, PluginParameter::Type::number, fmt::format("{}", fallback));
+  note_range(name, min, max, Ends::closed);
+  Property storage;
+  return clamped(find_value<double, std::int64_t>(name, "float", storage), name, fallback, min, max, severity);
+}
+
+double Parameters::mean_clamped(std::string_view name, double fallback, double min, double max) {
+  note(name, PluginParameter::Type::number, fmt::format("{}", fallback));
+  note_range(name, min, max, Ends::closed);
+  Property storage;
+  const Property* property =
+      find_value<double, std::int64_t, Property::Rgb, Property::Spectrum>(name, "float, rgb, spectrum", storage);
+  return clamped(property, name, fallback, min, max, Diagnostic::Severity::warning);
+}
+
+double Parameters::clamped(const Property* property, std::string_view name, double fallback, double min, double max,
+                           Diagnostic::Severity severity) {
+  if (property == nullptr) return fallback;
+  const double given = value_of(*property, name).value_or(fallback);
+  const double value = std::clamp(given, min, max);
+  if (value == given) return value;
+  const std::string message =
+      fmt::format("'{}' is {:g}{}, which is taken for {:g}", name, given, property->origin, value);
+  const std::string accepted = number_range("a number", min, max, given);
+  severity == Diagnostic::Severity::note ? diagnostics_.note(where(name), message, accepted)
+                                         : diagnostics_.warning(where(name), message, accepted);
+  return value;
 }
 
 std::string Parameters::text(std::string_view name, std::string_view fallback) {
@@ -287,13 +311,7 @@ std::string Parameters::file(std::string_view name) {
   const std::string& value = std::get<std::string>(property->value);
   std::vector<std::string> folders = description_.search_paths;
   folders.push_back(folder_of(property->location.file));
-  std::string other;
-  const std::string path = resolve_file(files_, value, folders, &other);
-  if (!other.empty()) diagnostics_.warning(property->location, two_files_of_one_name(value, path, other));
-  if (!path.empty()) return path;
-  error(name, fmt::format("there is no file {}{}", quoted(value, 200), property->origin),
-        accepted_files(value, folders));
-  return {};
+  return find_file(files_, value, folders, property->location, property->origin, diagnostics_);
 }
 
 std::vector<const Node::Child*> Parameters::children(std::string_view kind) {
@@ -363,64 +381,6 @@ SourceLocation Parameters::where(std::string_view name) const {
 
 void Parameters::error(std::string_view name, std::string message, std::string accepted) {
   diagnostics_.error(where(name), std::move(message), std::move(accepted));
-}
-
-void Parameters::accept_without_effect(const BaseParameter& parameter) {
-  constexpr double kAny = std::numeric_limits<double>::infinity();
-  using Limits = std::numeric_limits<std::int64_t>;
-  const int errors = diagnostics_.error_count();
-  switch (parameter.type) {
-    case BaseParameter::Type::boolean:
-      boolean(parameter.name, false);
-      break;
-    case BaseParameter::Type::integer:
-      integer(parameter.name, 0, Limits::min(), Limits::max());
-      break;
-    case BaseParameter::Type::number:
-      number(parameter.name, 0, -kAny, kAny);
-      break;
-    case BaseParameter::Type::transform:
-      transform(parameter.name);
-      break;
-  }
-  if (diagnostics_.error_count() > errors) return;
-  const std::string owner = parameter.plugin.empty() ? with_article(node_.kind) : name_of(node_);
-  const std::string instead = parameter.instead.empty() ? "" : fmt::format(" (instead: {})", parameter.instead);
-  diagnostics_.note(where(parameter.name),
-                    fmt::format("'{}' of {} has no effect here{}", parameter.name, owner, instead));
-}
-
-void Parameters::finish() {
-  const std::vector<std::string> names = list(asked_names_), kinds = list(asked_kinds_);
-  // Only what is misspelt asks for it.
-  const auto meant = [&](std::string_view name) {
-    std::vector<std::string> known = names;
-    for (const BaseParameter& row : base_parameters()) {
-      if (find_base_parameter(node_.kind, node_.plugin, row.name)) known.emplace_back(row.name);
-    }
-    return did_you_mean(name, known);
-  };
-  const std::string none = "no parameters";
-  for (const Property& property : node_.properties) {
-    if (asked_names_.contains(property.name)) continue;
-    if (const BaseParameter* base = find_base_parameter(node_.kind, node_.plugin, property.name)) {
-      accept_without_effect(*base);
-      continue;
-    }
-    diagnostics_.error(
-        property.name_location,
-        fmt::format("unused parameter {} of {}{}", quoted(property.file_name()), name_of(node_), meant(property.name)),
-        names.empty() ? none : join(names));
-  }
-  for (const Node::Child& child : node_.children) {
-    if (asked_kinds_.contains(child.node->kind) || (!child.name.empty() && asked_names_.contains(child.name))) continue;
-    const std::string named = child.name.empty() ? "" : fmt::format(" named {}", quoted(child.name));
-    const std::string accepted = kinds.empty() && !names.empty() ? "the names " + join(names) : join(kinds);
-    diagnostics_.error(child.location,
-                       fmt::format("unused {}{} in {}{}", name_of(*child.node), named, name_of(node_),
-                                   child.name.empty() ? "" : meant(child.name)),
-                       accepted.empty() ? "no children" : accepted);
-  }
 }
 
 }  // namespace norrsken

@@ -49,6 +49,10 @@ class Parameters {
   /// A number where the format has a texture: also an `rgb` or `spectrum`, of which the mean counts and is held against
   /// the range.
   double mean(std::string_view name, double fallback, double min, double max, Ends ends = Ends::closed);
+  /// As `number` and `mean`, but what is out of range is brought into it, with a warning or a note.
+  double number_clamped(std::string_view name, double fallback, double min, double max,
+                        Diagnostic::Severity severity = Diagnostic::Severity::warning);
+  double mean_clamped(std::string_view name, double fallback, double min, double max);
   std::string text(std::string_view name, std::string_view fallback);
   /// One of the words, in any case; otherwise an error that lists them.
   std::string choice(std::string_view name, std::string_view fallback, std::initializer_list<std::string_view> words);
@@ -112,6 +116,10 @@ class Parameters {
   const Property* find_value(std::string_view name, std::string_view accepted, Property& storage);
   template <class T>
   std::shared_ptr<const T> shared(std::string_view name, std::string_view accepted);
+  /// The mean of a colour; nothing after a complaint.
+  std::optional<double> value_of(const Property& property, std::string_view name);
+  double clamped(const Property* property, std::string_view name, double fallback, double min, double max,
+                 Diagnostic::Severity severity);
   double number_of(const Property& property, std::string_view name, double fallback, double min, double max, Ends ends);
   std::optional<glm::dvec3> color_of(const Property& property, std::string_view name, double min, double max,
                                      bool emission);

@@ -7,14 +7,10 @@
 #include <string_view>
 #include <variant>
 
+#include "base/text.h"
 #include "scene/parameters.h"
 
 namespace norrsken {
-
-inline std::string with_article(const std::string& type) {
-  const bool vowel = type == "rgb" || std::string_view("aeio").find(type.front()) != std::string_view::npos;
-  return (vowel ? "an " : "a ") + type;
-}
 
 template <typename... Types>
 const Property* Parameters::find_as(std::string_view name, std::string_view accepted) {

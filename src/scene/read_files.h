@@ -25,6 +25,7 @@ class RecordedFiles : public FileSystem {
   std::uint64_t size(const std::string& path) const override { return files_->size(path); }
   bool exists(const std::string& path) const override { return files_->exists(path); }
   bool is_folder(const std::string& path) const override { return files_->is_folder(path); }
+  std::vector<std::string> list(const std::string& folder) const override { return files_->list(folder); }
   bool is_disk() const override { return files_->is_disk(); }
 
   /// Those on the disk, by their names, each once.

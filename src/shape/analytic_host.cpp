@@ -17,14 +17,17 @@ std::optional<ShapeGeometry> place_analytic(const AnalyticShape& shape, Paramete
             fmt::format("coordinates up to {:g}", kMaxCoordinate));
     return std::nullopt;
   }
-  if (!std::isnormal(static_cast<float>(shape.area))) {
-    p.error("to_world",
-            fmt::format("the {}'s area of {:g} is too small to be told from 0", p.node().plugin, shape.area));
-    return std::nullopt;
-  }
+  if (!std::isnormal(static_cast<float>(shape.area))) return nothing_to_draw(p, "area", shape.area);
   ShapeGeometry geometry;
   geometry.analytic = shape;
   return geometry;
+}
+
+ShapeGeometry nothing_to_draw(Parameters& p, std::string_view measure, double value) {
+  p.diagnostics().warning(p.node().location,
+                          fmt::format("the {}'s {} of {:g} is too small to be told from 0: nothing of it is drawn",
+                                      p.node().plugin, measure, value));
+  return {};
 }
 
 bool keeps_shape(double deviation, double scale, Parameters& p, std::string_view message, std::string_view accepted) {

@@ -9,8 +9,11 @@
 
 namespace norrsken {
 
-/// The shape, or a complaint: about coordinates out of range, or an area too small to be told from 0.
+/// The shape, or a complaint about coordinates out of range. One whose area is not told from 0 is empty, with a warning.
 std::optional<ShapeGeometry> place_analytic(const AnalyticShape& shape, Parameters& p);
+
+/// An empty shape, and a warning that tells which measure of it is none.
+ShapeGeometry nothing_to_draw(Parameters& p, std::string_view measure, double value);
 
 /// Whether `to_world` keeps the shape what it is: `deviation` is how far the squares of its scale factors, or the cosines
 /// of its axes, are off, relative. What six printed decimals of a matrix of scale `scale` leave is taken in silence, up to

@@ -99,8 +99,9 @@ TEST(CurveShapes, HaveTheirMessages) {
 }
 
 TEST(CurveShapes, RefuseWhatHasNoSurface) {
-  EXPECT_THAT(linear(named("curves.txt"), "0 0 0 0\n0 0 1 0\n").messages(),
-              ElementsAre("error: the linearcurve's area of 0 is too small to be told from 0"));
+  EXPECT_THAT(
+      linear(named("curves.txt"), "0 0 0 0\n0 0 1 0\n").messages(),
+      ElementsAre("warning: the linearcurve's area of 0 is too small to be told from 0: nothing of it is drawn"));
   EXPECT_THAT(linear(named("curves.txt"), "0 0 0 1\n").messages(),
               ElementsAre("error: a curve of 1 control point (named at scene.xml:2:166) [at least 2 control points]"));
   EXPECT_THAT(bspline(named("curves.txt"), kLine + "0 0 3 1\n").messages(),

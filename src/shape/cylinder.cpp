@@ -2,7 +2,7 @@
 //
 // Parameters
 //   p0, p1        points, scene units (defaults 0 0 0 and 0 0 1): the ends of the axis
-//   radius        number above 0, scene units (default 1)
+//   radius        number from 0, scene units (default 1)
 //   to_world      transform (default identity), applied to the cylinder of those; it may scale along the axis otherwise
 //                 than across, but the cross-section must stay a circle at right angles to the axis
 //   flip_normals  boolean (default false): the normals point to the axis
@@ -60,13 +60,11 @@ void straighten(glm::dmat4& world_from_local, double radius) {
 
 std::optional<ShapeGeometry> compile_shape_cylinder(Parameters& p, Builder& builder) {
   const glm::dvec3 p0 = p.point("p0", glm::dvec3(0)), p1 = p.point("p1", glm::dvec3(0, 0, 1));
-  const double radius = p.number("radius", 1, 0, kMaxCoordinate, Ends::open_below);
-  const glm::dmat4 to_world = p.transform("to_world");
+  const double radius = p.number("radius", 1, 0, kMaxCoordinate);
+  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
   const bool flip_normals = p.boolean("flip_normals", false);
-  if (p0 == p1) {
-    p.error(p.has("p1") ? "p1" : "p0", "the cylinder's ends 'p0' and 'p1' are the same point", "two points");
-    return std::nullopt;
-  }
+  if (p0 == p1) return nothing_to_draw(p, "length", 0);
+  if (radius == 0 || glm::dmat3(to_world) == glm::dmat3(0)) return nothing_to_draw(p, "radius", 0);
   glm::dmat4 world_from_local = to_world * cylinder_from_local(p0, p1 - p0, radius);
   const glm::dmat3 linear(world_from_local);
   const glm::dmat3 placement(to_world);

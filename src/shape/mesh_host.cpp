@@ -45,10 +45,19 @@ void fill_missing_normals(MeshData& mesh) {
   }
 }
 
+/// Texture coordinates that a mesh does not have go by the order in which the file names a triangle's corners.
+void rewind_triangle(MeshData& mesh, std::size_t i) {
+  std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+  if (!mesh.texcoords.empty()) return;
+  mesh.rewound.resize(mesh.triangles.size());
+  mesh.rewound[i].flip();
+}
+
 void wind_as_normals_say(MeshData& mesh) {
-  for (Triangle& t : mesh.triangles) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle& t = mesh.triangles[i];
     const glm::dvec3 sum = to_dvec(mesh.normals[t[0]]) + to_dvec(mesh.normals[t[1]]) + to_dvec(mesh.normals[t[2]]);
-    if (glm::dot(sum, area_normal(mesh, t)) < 0) std::swap(t[1], t[2]);
+    if (glm::dot(sum, area_normal(mesh, t)) < 0) rewind_triangle(mesh, i);
   }
 }
 
@@ -138,7 +147,7 @@ std::optional<MeshData> read_file(const std::string& path, Parameters& p, Builde
 }  // namespace
 
 void reverse_winding(MeshData& mesh) {
-  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) rewind_triangle(mesh, i);
 }
 
 void compute_normals(MeshData& mesh) {

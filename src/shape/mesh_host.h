@@ -19,7 +19,8 @@
 // has no black rim where its interpolated normals turn away from the viewer before its triangles do.
 //
 // Departures: which side of a triangle emits is told by the geometric normal, in Mitsuba by the shading normal too. A
-// triangle whose winding contradicts the file's vertex normals is wound the other way, so that the two agree.
+// triangle whose winding contradicts the file's vertex normals is wound the other way, so that the two agree; texture
+// coordinates that the file does not give still go by the file's order of corners.
 //
 // Sources: Thuermer and Wuethrich 1998, Computing Vertex Normals from Polygonal Facets (the weights).
 #pragma once

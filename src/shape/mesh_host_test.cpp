@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 #include "compile/compile_testing.h"
 
@@ -42,6 +43,45 @@ TEST(MeshShape, ReadsObj) {
   ASSERT_THAT(c.messages(), IsEmpty());
   EXPECT_EQ(c.tables().triangle_count(), 1u);
   EXPECT_THAT(plane(c, 0), ElementsAre(0, 0, 1, 2));
+}
+
+TEST(MeshShape, TextureCoordinatesThatAFileDoesNotGiveGoByItsOrderOfCorners) {
+  // As Mitsuba has them: 0 0, 1 0 and 0 1 at the first, second and third corner of the file.
+  const auto uv_at = [](const Compiled& c) {
+    std::map<std::vector<float>, std::vector<float>> found;
+    const SceneTables& t = c.tables();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t v = t.triangle_vertices.at(k);
+      const std::vector<float> uv = t.texcoords.empty()
+                                        ? std::vector<float>{k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f}
+                                        : std::vector<float>{t.texcoords[2 * v], t.texcoords[2 * v + 1]};
+      found[{t.positions[3 * v], t.positions[3 * v + 1]}] = uv;
+    }
+    return found;
+  };
+  const std::string textured = R"(<bsdf type="diffuse"><texture name="reflectance" type="checkerboard"/></bsdf>)";
+  const std::map<std::vector<float>, std::vector<float>> wanted = {
+      {{0, 0}, {0, 0}}, {{1, 0}, {1, 0}}, {{0, 1}, {0, 1}}};
+  const std::string corners = "v 0 0 2\nv 1 0 2\nv 0 1 2\n";
+  const std::string against = corners + "vn 0 0 -1\nvn 0.1 0 -1\nf 1//1 2//2 3//1\n";
+  for (const std::string& obj : {kTriangle, against}) {
+    for (const std::string& flip : {std::string(), boolean("flip_normals", "true")}) {
+      EXPECT_EQ(uv_at(compile_shape(mesh("a.obj", flip + textured), {{"a.obj", obj}})), wanted) << obj << flip;
+    }
+  }
+  const Compiled plain = compile_shape(mesh("a.obj"), {{"a.obj", against}});
+  EXPECT_TRUE(plain.tables().texcoords.empty()) << "where nothing looks at them";
+}
+
+TEST(MeshShape, KnowsHowFarItsNormalsTurn) {
+  const auto turned_below = [](const std::string& normal) {
+    const std::string obj = "v 0 0 2\nv 1 0 2\nv 0 1 2\nvn 0 0 1\nvn " + normal + "\nf 1//1 2//2 3//1\n";
+    return compile_shape(mesh("a.obj"), {{"a.obj", obj}}).tables().shapes.at(0).turned_below;
+  };
+  EXPECT_NEAR(turned_below("0.6 0 0.8"), 0.6f, 2e-3f);
+  EXPECT_GE(turned_below("0.6 0 0.8"), 0.6f);
+  EXPECT_GT(turned_below("1 0 -0.5"), 1);
+  EXPECT_LT(turned_below("0 0 1"), 0) << "flat";
 }
 
 TEST(MeshShape, ReadsPly) {

@@ -76,8 +76,9 @@ TEST(SdfGridHost, IsPlaced) {
   EXPECT_NEAR(m[11], 5, 1e-6);
   EXPECT_THAT(grid(transform(R"(<scale z="0"/>)")).messages(),
               ElementsAre("error: 'to_world' cannot be inverted [scale factors other than 0]"));
-  EXPECT_THAT(grid(transform(R"(<scale value="1e-25"/>)")).messages(),
-              ElementsAre("error: the sdfgrid's area of 6e-50 is too small to be told from 0"));
+  EXPECT_THAT(
+      grid(transform(R"(<scale value="1e-25"/>)")).messages(),
+      ElementsAre("warning: the sdfgrid's area of 6e-50 is too small to be told from 0: nothing of it is drawn"));
   EXPECT_THAT(grid(transform(R"(<scale value="9e11"/><translate x="9e11"/>)")).messages(),
               ElementsAre("error: the sdfgrid is placed too far away or made too large [coordinates up to 1e+12]"));
   EXPECT_THAT(grid(R"(<float name="to_world" value="2"/>)").messages(),

@@ -176,13 +176,22 @@ TEST(Sphere, TurnsItsNormalInwards) {
   EXPECT_EQ(compile_shape(sphere(flip + mirror)).tables().shapes.at(0).flip_normals, 0u);
 }
 
+TEST(Sphere, OfRadiusZeroIsNotDrawn) {
+  for (const auto& [inside, radius] : {std::pair{R"(<float name="radius" value="0"/>)", "0"},
+                                       {R"(<transform name="to_world"><scale value="0"/></transform>)", "0"},
+                                       {R"(<float name="radius" value="1e-60"/>)", "1e-60"}}) {
+    const Compiled c = compile_shape(sphere(inside));
+    ASSERT_TRUE(c.scene) << inside;
+    EXPECT_EQ(c.info().spheres, 0u);
+    EXPECT_THAT(c.messages(), ElementsAre("warning: the sphere's radius of " + std::string(radius) +
+                                          " is too small to be told from 0: nothing of it is drawn"));
+  }
+}
+
 TEST(Sphere, RefusesRadiiThatMakeNoSphere) {
-  EXPECT_THAT(compile_shape(sphere(R"(<float name="radius" value="0"/>)")).messages(),
-              ElementsAre("error: 'radius' is 0 [a number above 0]"));
   EXPECT_THAT(compile_shape(sphere(R"(<float name="radius" value="-1"/>)")).messages(),
-              ElementsAre("error: 'radius' is -1 [a number above 0]"));
-  EXPECT_THAT(compile_shape(sphere(R"(<float name="radius" value="1e-60"/>)")).messages(),
-              ElementsAre("error: the sphere's radius of 1e-60 is too small to be told from 0"));
+              ElementsAre("error: 'radius' is -1 [a number of at least 0]"));
+  EXPECT_FALSE(compile_shape(sphere(transform(R"(<scale x="0"/>)"))).scene);
   EXPECT_FALSE(
       compile_shape(sphere(R"(<float name="radius" value="1e10"/>)" + transform(R"(<scale value="1e10"/>)"))).scene);
   EXPECT_THAT(compile_shape(sphere(R"(<float name="center" value="1"/>)")).messages(),

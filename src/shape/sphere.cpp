@@ -2,7 +2,7 @@
 //
 // Parameters
 //   center        point, scene units (default 0 0 0)
-//   radius        number above 0, scene units (default 1)
+//   radius        number from 0, scene units (default 1)
 //   to_world      transform (default identity), applied to the sphere of that centre and radius; its scale must be the
 //                 same in all directions; up to a percent that it differs by is left out
 //   flip_normals  boolean (default false): the normal points to the centre
@@ -48,13 +48,14 @@ std::uint32_t store_rotation(const glm::dmat3& object_from_world, Builder& build
 
 std::optional<ShapeGeometry> compile_shape_sphere(Parameters& p, Builder& builder) {
   const glm::dvec3 center = p.point("center", glm::dvec3(0));
-  const double radius = p.number("radius", 1, 0, kMaxCoordinate, Ends::open_below);
-  const glm::dmat4 to_world = p.transform("to_world");
+  const double radius = p.number("radius", 1, 0, kMaxCoordinate);
+  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
   const bool flip_normals = p.boolean("flip_normals", false);
 
   const glm::dmat3 linear(to_world);
   const double determinant = glm::determinant(linear);
   const double scale = std::cbrt(std::abs(determinant));
+  if (radius == 0 || linear == glm::dmat3(0)) return nothing_to_draw(p, "radius", 0);
   if (!keeps_shape(deviation_from_uniform(linear, scale), scale, p,
                    "'to_world' does not scale the sphere alike in all directions",
                    "translations, rotations and scales with one value"))
@@ -69,8 +70,7 @@ std::optional<ShapeGeometry> compile_shape_sphere(Parameters& p, Builder& builde
     }
   }
   if (!std::isnormal(static_cast<float>(world_radius))) {
-    p.error("radius", fmt::format("the sphere's radius of {} is too small to be told from 0", world_radius));
-    return std::nullopt;
+    return nothing_to_draw(p, "radius", world_radius);
   }
   builder.describe(p.node(), fmt::format("radius {:.6g}", world_radius));
   ShapeGeometry geometry;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "base/memory.h"
@@ -105,7 +106,12 @@ struct ShapeRecord {
   std::uint32_t group = kNone;              ///< the group it is in, or kNone for the world
   std::uint32_t lights = kNone;             ///< where its primitives begin in `primitive_lights`; kNone: no light
   Variation variation = Variation::none;    ///< for the host alone
+  /// Sine of the largest angle between the normals of a triangle and of its vertices; above 1 if one is of more than 90
+  /// degrees, below 0 without normals. Rays whose cosine is larger see the same side by both.
+  float turned_below = 2;
 };
+inline constexpr std::size_t kTurnedBelow = 9;  ///< words before it
+static_assert(offsetof(ShapeRecord, turned_below) == 4 * kTurnedBelow);
 
 /// Where something with a space of its own stands. Affine maps, row by row; the fourth of each row is the translation.
 struct Placement {

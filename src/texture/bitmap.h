@@ -1,6 +1,6 @@
 // Model       An image. Texel (column i, row j from the top) of w x h covers [i/w, (i+1)/w] x [j/h, (j+1)/h] of uv: uv
 //             (0, 0) is the image's upper left corner.
-// Parameters  filename, filter_type (bilinear or nearest), wrap_mode (repeat, mirror or clamp), raw, to_uv
+// Parameters  filename, filter_type (bilinear or nearest), wrap_mode (repeat, mirror or clamp; also of u or v alone), raw, to_uv
 // Source      Mitsuba 3's documentation of its bitmap texture; bilinear interpolation between texel centres
 // Departures  8-bit texels are kept as such, where Mitsuba stores 16-bit floats
 #pragma once
@@ -9,7 +9,8 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Stored: to_uv (6 floats), width, height, then words: first texel, stride, byte table, wrap mode, 1 if nearest. See
+/// Stored: to_uv (6 floats), width, height, then words: first texel, stride, byte table, wrap modes (that of
+/// u and 4 times that of v), 1 if nearest. See
 /// StoredImage in compile/images.h.
 struct Bitmap {
   /// The image of each lane, and the four texels around a place.
@@ -56,7 +57,7 @@ struct Bitmap {
     Lookup l;
     l.size = {gather(scene.parameters + 6, offset, active), gather(scene.parameters + 7, offset, active)};
     l.texels = word(8), l.stride = word(9), l.table = word(10);
-    const UInt wrap = word(11);
+    const UInt wrap_u = word(11) & UInt(3u), wrap_v = shift_right<2>(word(11));
     l.bilinear = word(12) == UInt(0u);
 
     const Vec2f uv = to_uv(scene, offset, point.uv, active);
@@ -65,8 +66,8 @@ struct Bitmap {
     const Float x0 = floor(x), y0 = floor(y);
     l.weight = {x - x0, y - y0};
     const Float width = l.size.x;
-    const UInt columns[2] = {wrapped(x0, width, wrap), wrapped(x0 + Float(1.0f), width, wrap)};
-    const UInt rows[2] = {wrapped(y0, l.size.y, wrap), wrapped(y0 + Float(1.0f), l.size.y, wrap)};
+    const UInt columns[2] = {wrapped(x0, width, wrap_u), wrapped(x0 + Float(1.0f), width, wrap_u)};
+    const UInt rows[2] = {wrapped(y0, l.size.y, wrap_v), wrapped(y0 + Float(1.0f), l.size.y, wrap_v)};
     for (int row = 0; row < 2; ++row) {
       for (int column = 0; column < 2; ++column) l.i[row][column] = rows[row] * to_uint(width) + columns[column];
     }

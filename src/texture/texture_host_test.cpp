@@ -85,11 +85,14 @@ TEST(BitmapHost, TakesEveryParameter) {
   ASSERT_THAT(c.messages(), IsEmpty());
   const auto p = stored(c, TextureKind::bitmap);
   EXPECT_THAT(std::vector(p.begin(), p.begin() + 6), ElementsAre(2, 0, 0.25f, 0, 3, 0.5f));
-  EXPECT_EQ(word_at(p, 11), 2u);
+  EXPECT_EQ(word_at(p, 11), 2u + 4 * 2u);
   EXPECT_EQ(word_at(p, 12), 1u);
   EXPECT_FLOAT_EQ(c.tables().texels[word_at(p, 10) + 128], 128 / 255.0f);
   const Compiled mirrored = compile_texture(bitmap(kFile + R"(<string name="wrap_mode" value="mirror"/>)"));
-  EXPECT_EQ(word_at(stored(mirrored, TextureKind::bitmap), 11), 1u);
+  EXPECT_EQ(word_at(stored(mirrored, TextureKind::bitmap), 11), 1u + 4 * 1u);
+  const Compiled along_v = compile_texture(bitmap(kFile + R"(<string name="wrap_mode_v" value="clamp"/>)"));
+  EXPECT_THAT(along_v.messages(), IsEmpty());
+  EXPECT_EQ(word_at(stored(along_v, TextureKind::bitmap), 11), 0u + 4 * 2u);
 }
 
 TEST(BitmapHost, ReadsAFileOnceHoweverOftenItIsNamed) {
@@ -208,7 +211,7 @@ TEST(BitmapHost, RefusesWhatItCannotRead) {
               ElementsAre("error: 'raw' is an integer [boolean]"));
   EXPECT_THAT(compile_texture(bitmap(kFile + R"(<float name="gamma" value="1"/>)")).messages(),
               ElementsAre("error: unused parameter 'gamma' of texture 'bitmap' "
-                          "[accel, filename, filter_type, format, raw, to_uv, wrap_mode]"));
+                          "[accel, filename, filter_type, format, raw, to_uv, wrap_mode, wrap_mode_u, wrap_mode_v]"));
 }
 
 TEST(CheckerboardHost, StoresItsColours) {

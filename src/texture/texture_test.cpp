@@ -73,6 +73,11 @@ void for_each_set(TextureKind kind, const std::vector<float>& parameters, const 
 }
 
 enum Wrap { kRepeat, kMirror, kClamp };
+struct Wraps {
+  Wraps(Wrap both) : u(both), v(both) {}
+  Wraps(Wrap along_u, Wrap along_v) : u(along_u), v(along_v) {}
+  Wrap u, v;
+};
 enum Layout { kPacked, kColor, kGrey };
 
 /// 3 x 2 texels; the reds are those of an image that Mitsuba was asked about, in 255ths.
@@ -86,7 +91,7 @@ float texel(Layout layout, int x, int y, int channel) {
 struct TestImage {
   std::vector<float> parameters, texels;
 
-  TestImage(Layout layout, Wrap wrap, bool nearest, std::vector<float> to_uv = {1, 0, 0, 0, 1, 0}) {
+  TestImage(Layout layout, Wraps wrap, bool nearest, std::vector<float> to_uv = {1, 0, 0, 0, 1, 0}) {
     texels.resize(5, 1e9f);  // what stands before it is another's
     if (layout == kPacked) {
       for (int byte = 0; byte < 256; ++byte) texels.push_back(static_cast<float>(byte) / 255.0f);
@@ -105,8 +110,8 @@ struct TestImage {
     texels.resize(texels.size() + 5, 1e9f);
     parameters = std::move(to_uv);
     const std::uint32_t stride = layout == kPacked ? 0 : layout == kColor ? 3 : 1;
-    for (const float value :
-         {float(kWidth), float(kHeight), word(first), word(stride), word(5), word(wrap), word(nearest ? 1 : 0)})
+    for (const float value : {float(kWidth), float(kHeight), word(first), word(stride), word(5),
+                              word(wrap.u + 4 * wrap.v), word(nearest ? 1 : 0)})
       parameters.push_back(value);
   }
 };
@@ -118,11 +123,11 @@ int wrapped(int i, int size, Wrap wrap) {
 }
 
 /// The textbook's lookup in double precision.
-double reference(Layout layout, Wrap wrap, bool nearest, double u, double v, int channel) {
+double reference(Layout layout, Wraps wrap, bool nearest, double u, double v, int channel) {
   const double x = u * kWidth - (nearest ? 0 : 0.5), y = v * kHeight - (nearest ? 0 : 0.5);
   const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
   const auto at = [&](int a, int b) -> double {
-    return texel(layout, wrapped(a, kWidth, wrap), wrapped(b, kHeight, wrap), channel);
+    return texel(layout, wrapped(a, kWidth, wrap.u), wrapped(b, kHeight, wrap.v), channel);
   };
   if (nearest) return at(i, j);
   return std::lerp(std::lerp(at(i, j), at(i + 1, j), x - i), std::lerp(at(i, j + 1), at(i + 1, j + 1), x - i), y - j);
@@ -139,7 +144,7 @@ std::vector<Place> grid() {
 TEST(BitmapTexture, LooksUpLikeTheTextbookInEveryMode) {
   const auto places = grid();
   for (const Layout layout : {kPacked, kColor, kGrey}) {
-    for (const Wrap wrap : {kRepeat, kMirror, kClamp}) {
+    for (const Wraps wrap : {Wraps(kRepeat), {kMirror}, {kClamp}, {kRepeat, kClamp}, {kClamp, kMirror}}) {
       for (const bool nearest : {false, true}) {
         const TestImage image(layout, wrap, nearest);
         for_each_set(TextureKind::bitmap, image.parameters, image.texels, {}, places, [&](const auto& values) {
@@ -150,7 +155,7 @@ TEST(BitmapTexture, LooksUpLikeTheTextbookInEveryMode) {
               wrong += !(std::abs(values[i].rgb[c] - wanted) < 1e-5);
             }
           }
-          EXPECT_EQ(wrong, 0) << layout << wrap << nearest;
+          EXPECT_EQ(wrong, 0) << layout << wrap.u << wrap.v << nearest;
         });
       }
     }

@@ -11,15 +11,19 @@ __attribute__((noinline)) inline Mask back_of_shading(const SceneView& scene, Hi
   return active & (make_surface_point(scene, hit, active).side < Float(0.0f));
 }
 
-/// The lanes whose surface has shading normals of its own.
-NORRSKEN_INLINE Mask has_shading_normal(const SceneView& scene, UInt primitive, Mask active) {
+/// The lanes whose ray may come from another side of the shading normal than of the geometric one.
+NORRSKEN_INLINE Mask may_be_turned(const SceneView& scene, const Hit& hit, Mask active) {
   Mask found = Float(1.0f) < Float(0.0f);
-  if (scene.first_analytic != kNone) found = active & !below(primitive, scene.first_analytic);
+  if (scene.first_analytic != kNone) found = active & !below(hit.primitive, scene.first_analytic);
   if (!scene.any_smooth) return found;
-  const Mask triangle = active & below(primitive, scene.triangle_count);
-  const UInt shape = shape_index(shape_of(scene, primitive, triangle));
-  return found |
-         (triangle & (gather_uint(reinterpret_cast<const float*>(scene.shapes) + 2, shape, triangle) != UInt(0u)));
+  const Mask triangle = active & below(hit.primitive, scene.triangle_count);
+  const UInt shape = shape_index(shape_of(scene, hit.primitive, triangle));
+  const Float most = gather(reinterpret_cast<const float*>(scene.shapes) + kTurnedBelow, shape, triangle);
+  const Vec3f normal = gather3(surface_floats(scene), record_index(hit.primitive), triangle);
+  Mask grazing = abs(dot(normal, hit.ray.direction)) <= most;
+  // An instance's map changes angles.
+  if (scene.instance_count > 0) grazing |= (hit.instance != UInt(kNone)) & (most >= Float(0.0f));
+  return found | (triangle & grazing);
 }
 
 /// The material word of the side that the geometric normal tells.
@@ -35,7 +39,7 @@ NORRSKEN_INLINE UInt material_of(const SceneView& scene, const Hit& hit, UInt pr
   const UInt other = material_of_side(scene, hit.primitive, primitive_side ^ UInt(kBackSide), active);
   const Mask differ = active & (((seen ^ other) & UInt(~kEmitsBit)) != UInt(0u));
   if (none(differ)) return seen;
-  const Mask told = has_shading_normal(scene, hit.primitive, differ);
+  const Mask told = may_be_turned(scene, hit, differ);
   if (none(told)) return seen;
   const Mask back = (primitive_side & UInt(kBackSide)) != UInt(0u);
   const Mask turned = told & (back_of_shading(scene, hit, told) ^ back);

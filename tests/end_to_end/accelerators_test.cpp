@@ -150,6 +150,27 @@ TEST_P(Accelerators, MergeWhatDiffersInNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Meshes, Accelerators, ::testing::ValuesIn(kCases), kParamName);
 
+class FarAway : public SceneFolder {};
+
+/// Where planes, which would do for so few triangles, would make them visibly larger.
+TEST_F(FarAway, SmallThingsKeepTheirSize) {
+  write("m.obj", "v -0.5 -0.5 0\nv 0.5 -0.5 0\nv 0 0.5 0\nf 1 2 3\n");
+  const auto covered = [&](const std::string& at) {
+    const View view{.origin = at + ", " + at + ", 4", .target = at + ", " + at + ", 0"};
+    const std::string place =
+        R"(<transform name="to_world"><translate x=")" + at + R"(" y=")" + at + R"("/></transform>)";
+    const Scene scene = load_elements(R"(<integrator type="path"><integer name="max_depth" value="1"/></integrator>)" +
+                                      camera(32, view) + R"(<shape type="obj">)" + text("filename", "m.obj") + place +
+                                      R"(<emitter type="area"/></shape>)");
+    double sum = 0;
+    const Image image = render_image(scene, {.samples_per_pixel = 256, .threads = kThreads});
+    for (const float value : image.find("R")->values) sum += static_cast<double>(value);
+    return sum;
+  };
+  // The image's samples know the area to 0.03 % at either place; planes are 2 % off.
+  EXPECT_NEAR(covered("3000") / covered("0"), 1, 2e-3);
+}
+
 /// The room's triangles stay what they are made of.
 TEST(AcceleratorsMerge, TheRoom) {
   const Scene scene = load("hexagon_room");

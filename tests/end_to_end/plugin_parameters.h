@@ -139,6 +139,8 @@ inline const Plugin kPlugins[] = {
       kToUv,
       {"filter_type", "string", "nearest", "cubic", "bilinear, nearest"},
       {"wrap_mode", "string", "mirror", "once", "repeat, mirror, clamp"},
+      {"wrap_mode_u", "string", "mirror", "once", "repeat, mirror, clamp"},
+      {"wrap_mode_v", "string", "mirror", "once", "repeat, mirror, clamp"},
       {"raw", "boolean", "true"},
       {"format", "string", "fp16", "fp8", "auto, variant, fp16"},
       {"accel", "boolean", "true"}},

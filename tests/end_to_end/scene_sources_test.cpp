@@ -224,7 +224,7 @@ TEST(BuiltScene, WhatIsWrongIsSaid) {
   EXPECT_EQ(error(with(Node("shape", "mesh").set("positions", FloatArray{0, 0, 0}))),
             "shape 'mesh' needs a parameter 'triangles' [<string name=\"triangles\" value=\"0 1 2\"/>]");
   EXPECT_EQ(error(with(Node("shape", "sphere").set("radius", std::numeric_limits<double>::quiet_NaN()))),
-            "'radius' is nan [a number above 0]");
+            "'radius' is nan [a number of at least 0]");
   EXPECT_EQ(error(with(Node("shape", "sphere").set("radius", Mesh{}))), "'radius' is a mesh [float]");
   EXPECT_EQ(error(with(Node("emitter", "envmap").set("image", Image{}))),
             "'image' has no colours [channels R, G and B, or Y]");

@@ -139,6 +139,14 @@ TEST(SceneViews, ASensorMayBeGivenAsAWhole) {
   EXPECT_TRUE(identical(rendered(view), rendered(from_text(words))));
 }
 
+TEST(SceneViews, ASceneWithoutASensorMayBeLookedAtToo) {
+  const Scene scene = from_text(R"(<scene version="3.0.0"><shape type="sphere"/><emitter type="constant"/></scene>)");
+  const Scene view = viewed(scene, {.camera = {{"fov", 20.0}}, .width = 16, .height = 16, .samples_per_pixel = 1});
+  EXPECT_EQ(view.info().width, 16);
+  EXPECT_EQ(view.info().items.size(), scene.info().items.size());
+  EXPECT_EQ(rendered(view).find("R")->values.size(), 256u);
+}
+
 TEST(SceneViews, ACropIsThePartOfTheWholeImage) {
   const Scene scene = load(kRoom, small_room());
   const Image whole = rendered(scene);
