@@ -16,8 +16,7 @@ const Scene& room_scene() {
     LoadOptions options;
     options.parameters = {{"shadow_rays", "1"}};
     options.sampler = "independent";
-    Diagnostics diagnostics;
-    std::optional<Scene> loaded = Scene::load("hexagon_room", options, diagnostics);
+    const Result<Scene> loaded = Scene::load("hexagon_room", options);
     if (!loaded) throw std::runtime_error("the built-in room does not load");
     return *loaded;
   }();

@@ -45,9 +45,8 @@ Scene load_scene(const Settings& settings) {
   }
   options.width = options.height = settings.size;
   options.samples_per_pixel = settings.spp;
-  Diagnostics diagnostics;
-  const std::optional<Scene> scene = Scene::load(file, options, diagnostics);
-  if (!scene) throw std::runtime_error(to_text(diagnostics.all().at(0)));
+  const Result<Scene> scene = Scene::load(file, options);
+  if (!scene) throw std::runtime_error(to_text(scene.diagnostics().all().at(0)));
   return *scene;
 }
 

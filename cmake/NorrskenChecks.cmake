@@ -43,4 +43,18 @@ if(TARGET norrsken AND NOT NORRSKEN_SANITIZE)
       ${PROJECT_BINARY_DIR})
     set_tests_properties(consumer.names_no_build_folder PROPERTIES FIXTURES_REQUIRED installed)
   endif()
+
+  # With the sources as a part of it, which takes as long to build as the library does: otherwise it is configured alone.
+  set(part_of_it -S ${PROJECT_SOURCE_DIR}/tests/consumer -B ${PROJECT_BINARY_DIR}/consumer/with_sources
+    -G ${CMAKE_GENERATOR} -DNORRSKEN_SOURCES=${PROJECT_SOURCE_DIR} -DNORRSKEN_ISAS=scalar -DCMAKE_BUILD_TYPE=Release)
+  add_test(NAME consumer.add_subdirectory COMMAND ${CMAKE_COMMAND} ${part_of_it})
+  set_tests_properties(consumer.add_subdirectory PROPERTIES FIXTURES_SETUP configured)
+  if(NORRSKEN_THOROUGH_TESTS)
+    add_test(NAME consumer.build_with_sources
+      COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR}/consumer/with_sources --target consumer)
+    add_test(NAME consumer.run_with_sources COMMAND ${PROJECT_BINARY_DIR}/consumer/with_sources/consumer)
+    set_tests_properties(consumer.build_with_sources PROPERTIES
+      FIXTURES_REQUIRED configured FIXTURES_SETUP built_with_sources LABELS slow TIMEOUT 3600)
+    set_tests_properties(consumer.run_with_sources PROPERTIES FIXTURES_REQUIRED built_with_sources LABELS slow)
+  endif()
 endif()

@@ -9,10 +9,13 @@ if(NORRSKEN_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 add_library(norrsken_options INTERFACE)
+if(NORRSKEN_WARNINGS)
+  target_compile_options(norrsken_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    # GCC 12 warns wrongly about `"literal" + std::string` (GCC bug 105651).
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+endif()
 target_compile_options(norrsken_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-  # GCC 12 warns wrongly about `"literal" + std::string` (GCC bug 105651).
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Results must not depend on what the compiler fuses or reorders: fma is written where it is meant.
   -ffp-contract=off -fno-fast-math)
 if(NORRSKEN_WARNINGS_AS_ERRORS)

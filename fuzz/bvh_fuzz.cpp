@@ -40,7 +40,7 @@ SceneTables tables_of(ByteSource& bytes) {
 
 void check(ByteSource& bytes) {
   const SceneTables tables = tables_of(bytes);
-  const Accel accel(tables, AccelKind::bvh, 1), by_many(tables, AccelKind::bvh, 3);
+  const Accel accel(tables, AccelKind::bvh, Variation::none, 1), by_many(tables, AccelKind::bvh, Variation::none, 3);
   const SceneView view = make_scene_view(tables, accel.view()), view_by_many = make_scene_view(tables, by_many.view());
   constexpr std::uint32_t kRays = 64;
   AlignedVector<float> values(7 * kRays), t(kRays), t_by_many(kRays);

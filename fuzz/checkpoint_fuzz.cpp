@@ -41,13 +41,13 @@ RenderOptions options_for(const std::string& checkpoint) {
 struct Subject {
   explicit Subject(const char* xml) {
     const fuzz::MemoryFile file(xml);
-    Diagnostics diagnostics;
-    scene = Scene::load(file.path(), {}, diagnostics);
-    fuzz::require(scene.has_value(), "the scene is good");
+    Result<Scene> loaded = Scene::load(file.path());
+    fuzz::require(loaded.has_value(), "the scene is good");
+    scene = *std::move(loaded);
     const TemporaryFolder folder;
     const std::string path = folder.file("checkpoint");
-    const auto render = Render::create(*scene, options_for(path), diagnostics);
-    fuzz::require(render && render->run({}).checkpoint_error.empty(), "the scene can be rendered");
+    const auto render = Render::create(*scene, options_for(path));
+    fuzz::require(render && (*render)->run().checkpoint_error.empty(), "the scene can be rendered");
     checkpoint = read(path);
     traits = fuzz::take_apart(checkpoint).sections.at(0).content;
   }
@@ -73,11 +73,11 @@ const Subject& subject(bool from_lights) {
 void resume(fuzz::SectionFile file, const Subject& subject) {
   if (!file.sections.empty()) file.sections.front().content = subject.traits;
   const fuzz::MemoryFile input(fuzz::put_together(file));
-  Diagnostics diagnostics;
-  const auto render = Render::create(*subject.scene, options_for(input.path()), diagnostics);
-  fuzz::check_complaints(render != nullptr, diagnostics);
-  if (!render) return;
-  const RenderStatistics statistics = render->run({});
+  const auto created = Render::create(*subject.scene, options_for(input.path()));
+  fuzz::check_complaints(created.has_value(), created.diagnostics());
+  if (!created) return;
+  Render* const render = created->get();
+  const RenderStatistics statistics = render->run();
   fuzz::require(!statistics.cancelled && statistics.has_image, "a rendering that goes on comes to its end");
   fuzz::require(render->image(true).find("R") != nullptr, "it has an image");
 }
@@ -86,11 +86,10 @@ void resume(fuzz::SectionFile file, const Subject& subject) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const fuzz::MemoryFile input(fuzz::text_of(data, size));
-  MergedRender merged;
-  const IoStatus status = merge_renders({input.path()}, true, merged);
-  fuzz::require(!status || !merged.samples.empty(), "what was merged has samples");
-  const IoStatus twice = merge_renders({input.path(), input.path()}, true, merged);
-  fuzz::require(!twice || merged.samples.empty(), "samples are not counted twice");
+  const Result<MergedRender> merged = merge_renders({input.path()}, true);
+  fuzz::require(!merged || !merged->samples.empty(), "what was merged has samples");
+  const Result<MergedRender> twice = merge_renders({input.path(), input.path()}, true);
+  fuzz::require(!twice || !merged || merged->samples.empty(), "samples are not counted twice");
 
   const fuzz::SectionFile file = fuzz::take_apart(fuzz::text_of(data, size));
   for (const bool from_lights : {false, true}) resume(file, subject(from_lights));

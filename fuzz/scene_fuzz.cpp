@@ -60,10 +60,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (show) std::fputs(xml.c_str(), stderr);
   const fuzz::MemoryFile file(xml);
 
-  Diagnostics diagnostics;
-  const auto scene = Scene::load(file.path(), {}, diagnostics);
-  fuzz::check_complaints(scene.has_value(), diagnostics);
-  const auto render = scene ? Render::create(*scene, options, diagnostics) : nullptr;
+  const auto scene = Scene::load(file.path());
+  fuzz::check_complaints(scene.has_value(), scene.diagnostics());
+  Diagnostics diagnostics = scene.diagnostics();
+  std::unique_ptr<Render> render;
+  if (scene) {
+    auto created = Render::create(*scene, options);
+    diagnostics = created.diagnostics();
+    if (created) render = *std::move(created);
+  }
   if (show) {
     for (const Diagnostic& d : diagnostics.all()) std::fprintf(stderr, "%s\n", to_text(d).c_str());
   }
@@ -71,7 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(diagnostics.has_errors(), "what is not rendered is complained about");
     return 0;
   }
-  const RenderStatistics statistics = render->run({});
+  const RenderStatistics statistics = render->run();
   if (show) std::fprintf(stderr, "%llu samples dropped\n", static_cast<unsigned long long>(statistics.dropped_samples));
   check_image(render->image(true), statistics);
   return 0;

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes docs/scenes.md, the reference of everything that a scene file may name, from the sources' own header blocks.
 
-    scripts/make_scene_docs.py                    write docs/scenes.md
-    scripts/make_scene_docs.py --check            say whether docs/scenes.md is what would be written (exit status 1 if not)
+    scripts/make_scene_docs.py                    write docs/scenes.md and src/compile/plugin_texts.inc
+    scripts/make_scene_docs.py --check            say whether they are what would be written (exit status 1 if not)
     scripts/make_scene_docs.py --render PROGRAM   render the pictures too, with PROGRAM (build/release/norrsken)
 
 Plugins are those of src/lists. Of each, the host file's block says what its parameters are,
@@ -18,6 +18,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/scenes.md"
+TEXTS = ROOT / "src/compile/plugin_texts.inc"
 PICTURES = ROOT / "docs/images/plugins"
 SCENES = ROOT / "docs/plugin_scenes"
 ENLARGED = ("rfilter", "sampler")  # families whose pictures are about single pixels
@@ -150,6 +151,60 @@ def plugin_section(folder, element, name):
     return "\n".join(out)
 
 
+UNIT = re.compile(r"\b(degrees|pixels|scene units|kelvin|nm)\b")
+
+
+def title_and_body(folder, name):
+    """What a plugin is, and the rest of its host file's block."""
+    host = header_block(ROOT / f"src/{folder}/{name}.cpp")
+    title = re.sub(rf"^{name}: ?", "", host[0])
+    body = host[1:]
+    while body and body[0] and not body[0].startswith("Parameters"):
+        title += " " + body.pop(0)
+    if title.rstrip(".") == "host side":
+        title = fields(header_block(ROOT / f"src/{folder}/{name}.h")).get("Model", "")
+    return title, body
+
+
+def parameter_texts(block):
+    """Parameters of a block and their texts."""
+    table, names, inside = {}, [], False
+    for line in block:
+        entry = re.match(r"  (\S.*?)(?: {2,}|$)(.*)", line)
+        if line.startswith("Parameters"):
+            inside = True
+        elif not line.startswith("  "):
+            inside = False
+        elif inside and line.startswith("   ") and names:
+            for name in names:
+                table[name] = (table[name] + " " + line.strip()).strip()
+        elif inside and entry:
+            more = [name.strip() for name in entry[1].split(",") if name.strip()]
+            names = names + more if names and not table[names[0]] else more
+            for name in names:
+                table[name] = entry[2]
+    return {name: re.sub(" {2,}", " ", text) for name, text in table.items()}
+
+
+def literal(text):
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def texts():
+    """The table of src/compile/plugin_info.cpp."""
+    out = ["// Written by scripts/make_scene_docs.py from the header blocks of the sources."]
+    for _, folder, element, lists, common in FAMILIES:
+        shared = parameter_texts(header_block(ROOT / f"src/{folder}/{common}")) if common else {}
+        for name in plugin_names(lists):
+            title, body = title_and_body(folder, name)
+            parameters = {**shared, **parameter_texts(body)}
+            out.append(f'{{"{element}", "{name}", "", "", {literal(title[:1].upper() + title[1:])}}},')
+            for parameter, text in parameters.items():
+                unit = None if text.startswith("string") else UNIT.search(text.split(":")[0])
+                out.append(f'{{"{element}", "{name}", "{parameter}", "{unit[1] if unit else ""}", {literal(text)}}},')
+    return "\n".join(out) + "\n"
+
+
 def without_effect():
     """The table of src/scene/base_parameters.cpp."""
     source = (ROOT / "src/scene/base_parameters.cpp").read_text()
@@ -205,13 +260,13 @@ def main():
     arguments = parser.parse_args()
     if arguments.render:
         render(arguments.render)
-    text = page()
-    if arguments.check:
-        if not PAGE.exists() or PAGE.read_text() != text:
-            sys.exit("docs/scenes.md is not what the sources say: run scripts/make_scene_docs.py")
-        print("docs/scenes.md: up to date")
-        return
-    PAGE.write_text(text)
+    for path, text in ((PAGE, page()), (TEXTS, texts())):
+        if not arguments.check:
+            path.write_text(text)
+        elif not path.exists() or path.read_text() != text:
+            sys.exit(f"{path.relative_to(ROOT)} is not what the sources say: run scripts/make_scene_docs.py")
+        else:
+            print(f"{path.relative_to(ROOT)}: up to date")
 
 
 if __name__ == "__main__":

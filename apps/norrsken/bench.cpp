@@ -27,6 +27,7 @@ RenderStatistics render_once(const Scene& scene, const RenderOptions& options) {
   const auto render = create_render(scene, options);
   const InterruptGuard guard(*render);
   RenderStatistics statistics = render->run();
+  if (!statistics.failure.empty()) throw Failure(ExitStatus::internal, statistics.failure);
   if (statistics.cancelled) throw Failure(ExitStatus::interrupted, "interrupted; nothing measured");
   return statistics;
 }

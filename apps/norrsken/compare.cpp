@@ -23,18 +23,19 @@ struct Arguments {
 };
 
 /// Complaints about one image after the other are printed; the first one's status stays.
-void read_image_or_tell(const std::string& path, MemoryBudget& memory, Image& image, ExitStatus& result) {
-  const IoStatus status = read_image(path, image, memory.left());
-  if (status) {
-    for (const Channel& channel : image.channels) memory.take(channel.values.size() * sizeof(float));
-    return;
+Image read_image_or_tell(const std::string& path, const std::shared_ptr<MemoryBudget>& memory, ExitStatus& result) {
+  Result<Image> image = read_image(path, memory);
+  if (image) {
+    for (const Channel& channel : image->channels) memory->take(channel.values.size() * sizeof(float));
+    return *std::move(image);
   }
   print_error(is_checkpoint(path)
                   ? fmt::format("'{0}' is a checkpoint, not an image: 'norrsken merge {0} -o image.exr --layers' makes "
                                 "one of it",
                                 path)
-                  : status.error);
+                  : image.error());
   if (result == ExitStatus::done) result = unreadable_input_status(path);
+  return {};
 }
 
 ExitStatus check_output(const Arguments& arguments) {
@@ -95,27 +96,23 @@ void print_as_text(const Comparison& comparison) {
 }
 
 ExitStatus compare_images(const Arguments& arguments) {
-  const bool wants_difference = !arguments.output.empty();
   ExitStatus wrong = check_output(arguments);
-  Image a, b;
   const auto memory = arguments.memory.budget();
-  read_image_or_tell(arguments.a, *memory, a, wrong);
-  read_image_or_tell(arguments.b, *memory, b, wrong);
+  const Image a = read_image_or_tell(arguments.a, memory, wrong), b = read_image_or_tell(arguments.b, memory, wrong);
   if (wrong != ExitStatus::done) return wrong;
   if (a.width != b.width || a.height != b.height)
     throw Failure(ExitStatus::data_error, fmt::format("the images differ in size: {} is {}x{}, {} {}x{}", arguments.a,
                                                       a.width, a.height, arguments.b, b.width, b.height));
-  Comparison comparison;
   CompareOptions options;
   options.tone = arguments.tone.tone_mapping();
   options.memory = memory;
-  Image difference;
-  const IoStatus status = compare(a, b, options, comparison, wants_difference ? &difference : nullptr);
-  if (!status)
+  options.difference = !arguments.output.empty();
+  const Result<Comparison> comparison = compare(a, b, options);
+  if (!comparison)
     throw Failure(ExitStatus::data_error,
-                  fmt::format("cannot compare '{}' with '{}': {}", arguments.a, arguments.b, status.error));
-  if (wants_difference) write_image_or_fail(arguments.output, difference, options.tone);
-  arguments.json ? print_as_json(arguments, comparison) : print_as_text(comparison);
+                  fmt::format("cannot compare '{}' with '{}': {}", arguments.a, arguments.b, comparison.error()));
+  if (options.difference) write_image_or_fail(arguments.output, comparison->difference, options.tone);
+  arguments.json ? print_as_json(arguments, *comparison) : print_as_text(*comparison);
   return ExitStatus::done;
 }
 

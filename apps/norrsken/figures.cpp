@@ -168,9 +168,9 @@ class Workshop {
       return r.light == result.light && r.integrator == result.integrator;
     });
     result.reference = reference->name;
-    const IoStatus status =
-        compare(image, references_.at({result.light, result.integrator}), CompareOptions{}, result.comparison);
-    if (!status) throw Failure(ExitStatus::internal, status.error);
+    const Result<Comparison> comparison = compare(image, references_.at({result.light, result.integrator}));
+    if (!comparison) throw Failure(ExitStatus::internal, comparison.error());
+    result.comparison = *comparison;
     tell(result);
     return image;
   }
@@ -228,6 +228,7 @@ class Workshop {
     meter_.start(fmt::format("{}: ", result.name));
     result.statistics = rendering->run([this](const RenderProgress& progress) { meter_.update(progress); });
     meter_.finish();
+    if (!result.statistics.failure.empty()) throw Failure(ExitStatus::internal, result.statistics.failure);
     if (result.statistics.cancelled)
       throw Failure(
           ExitStatus::interrupted,

@@ -86,8 +86,8 @@ class MaxMemory : public testing::Test {
     write_scene(
         R"(<texture type="bitmap"><string name="filename" value="image.tga"/></texture><shape type="sphere"/>)");
   }
-  ProcessResult render(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments = {"render",    "scene.xml", "--spp", "1",    "--quiet",
+  ProcessResult render(const std::vector<std::string>& more = {}, const char* spp = "1") const {
+    std::vector<std::string> arguments = {"render",    "scene.xml", "--spp", spp,    "--quiet",
                                           "--threads", "2",         "-o",    "a.exr"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);
@@ -140,7 +140,8 @@ TEST_F(MaxMemory, CountsWhatAFilmTakes) {
   const auto memory = nlohmann::json::parse(info.out).at("memory");
   const std::uint64_t counted =
       memory.at("film_bytes").get<std::uint64_t>() + memory.at("image_bytes").get<std::uint64_t>();
-  const ProcessResult rendered = render(size);
+  // Of the film, what nobody has written to takes no memory: a sample of each replicate.
+  const ProcessResult rendered = render(size, "4");
   ASSERT_EQ(rendered.status, 0) << rendered.err;
   expect_near(counted, rendered.peak_memory, kProgram);
 }

@@ -43,9 +43,9 @@ ExitStatus merge(const Arguments& arguments) {
   if (const ExitStatus status = check_outputs(outputs); status != ExitStatus::done) return status;
   const ExitStatus clash = check_written_files(outputs, uses_of(arguments.files, "one of the files to merge"));
   if (clash != ExitStatus::done) return clash;
-  MergedRender merged;
-  const IoStatus status = merge_renders(arguments.files, arguments.layers, merged, arguments.memory.budget());
-  if (!status) throw Failure(status_of(arguments.files), status.error);
+  const Result<MergedRender> result = merge_renders(arguments.files, arguments.layers, arguments.memory.budget());
+  if (!result) throw Failure(status_of(arguments.files), result.error());
+  const MergedRender& merged = *result;
 
   if (!merged.gaps.empty()) print_warning(fmt::format("no file holds the samples {}", list_of(merged.gaps)));
   for (const MergedRender::Unfinished& part : merged.unfinished)

@@ -298,6 +298,7 @@ ExitStatus render(Arguments arguments) {
   if (!statistics.checkpoint_error.empty()) print_error(statistics.checkpoint_error);
   if (!arguments.quiet) tell_dropped(arguments, statistics);
   tell_done(arguments, info, statistics, written);
+  if (!statistics.failure.empty()) throw Failure(ExitStatus::internal, statistics.failure);
   const bool all_written = !statistics.has_image || written.size() == arguments.outputs.size();
   if (!all_written || !statistics.checkpoint_error.empty()) return ExitStatus::io_error;
   return statistics.cancelled ? ExitStatus::interrupted : ExitStatus::done;

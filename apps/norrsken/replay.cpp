@@ -114,9 +114,8 @@ std::string describe_path(const PathTrace& path, bool vertices) {
 
 ExitStatus replay(const Scene& scene, const RenderOptions& options, const ReplayArguments& arguments, bool json) {
   const auto [x, y] = parse_pixel(arguments.pixel).value();
-  Diagnostics diagnostics;
-  const auto path = trace_path(scene, options, x, y, static_cast<std::uint32_t>(arguments.sample), diagnostics);
-  print_diagnostics(diagnostics);
+  const auto path = trace_path(scene, options, x, y, static_cast<std::uint32_t>(arguments.sample));
+  print_diagnostics(path.diagnostics());
   if (!path) return ExitStatus::usage;
   if (json) {
     nlohmann::ordered_json object = {{"x", x}, {"y", y}, {"sample", arguments.sample}, {"radiance", path->radiance}};

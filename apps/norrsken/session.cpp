@@ -39,23 +39,21 @@ ExitStatus unreadable_input_status(const std::string& path) {
 }
 
 Scene load_scene(const std::string& name, const LoadOptions& options, bool with_warnings, ExitStatus so_far) {
-  Diagnostics diagnostics;
-  auto scene = Scene::load(name, options, diagnostics);
-  print_diagnostics(diagnostics, with_warnings);
+  Result<Scene> scene = Scene::load(name, options);
+  print_diagnostics(scene.diagnostics(), with_warnings);
   if (so_far != ExitStatus::done) throw Failure(so_far, "");
-  if (!scene) throw Failure(status_of(name, diagnostics), "");
-  return *scene;
+  if (!scene) throw Failure(status_of(name, scene.diagnostics()), "");
+  return *std::move(scene);
 }
 
 std::unique_ptr<Render> create_render(const Scene& scene, const RenderOptions& options, bool with_warnings) {
-  Diagnostics diagnostics;
-  auto render = Render::create(scene, options, diagnostics);
-  print_diagnostics(diagnostics, with_warnings);
-  if (render) return render;
+  Result<std::unique_ptr<Render>> render = Render::create(scene, options);
+  print_diagnostics(render.diagnostics(), with_warnings);
+  if (render) return *std::move(render);
   // Another process may have taken the checkpoint while the scene was loaded.
   if (!options.checkpoint.empty() && !check_checkpoint_writable(options.checkpoint))
     throw Failure(ExitStatus::cannot_create, "");
-  throw Failure(any_error_names_a_file(diagnostics) ? ExitStatus::data_error : ExitStatus::usage, "");
+  throw Failure(any_error_names_a_file(render.diagnostics()) ? ExitStatus::data_error : ExitStatus::usage, "");
 }
 
 ExitStatus check_outputs(const std::vector<std::string>& images, const std::string& checkpoint) {

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "norrsken/image.h"
 #include "norrsken/memory.h"
+#include "norrsken/result.h"
 
 namespace norrsken {
 
@@ -35,17 +35,18 @@ struct Comparison {
     double rms_z = 0;         ///< root mean square of the pixel z-scores; 1 for honest variances and equal means
   };
   std::optional<ZTest> z_test;
+
+  Image difference;  ///< if CompareOptions::difference asks for it: channels R, G, B = |a - b|, and `flip`
 };
 
 struct CompareOptions {
   ToneMapping tone;                           ///< for PSNR and FLIP
   std::shared_ptr<MemoryBudget> memory = {};  ///< for what it takes beside the images; empty: all that there is
   double pixels_per_degree = 67;              ///< FLIP's viewing condition: 0.7 m from a 0.7 m wide 3840-pixel screen
+  bool difference = false;                    ///< whether to make an image of it
 };
 
-/// Compares `a` with the reference `b`; both need colours and one size, otherwise `error` says what differs.
-/// `difference`, if given, receives channels R, G, B = |a - b| and `flip`.
-IoStatus compare(const Image& a, const Image& b, const CompareOptions& options, Comparison& result,
-                 Image* difference = nullptr);
+/// Compares `a` with the reference `b`. Errors: colours are missing, the sizes differ, too little memory.
+Result<Comparison> compare(const Image& a, const Image& b, const CompareOptions& options = {});
 
 }  // namespace norrsken

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace norrsken {
@@ -30,11 +32,18 @@ struct Diagnostic {
   SourceLocation location;
 };
 
+/// Receives diagnostics one by one as they come: a log.
+using DiagnosticSink = std::function<void(const Diagnostic&)>;
+
 /// Collects complaints, so that one run tells as many of them as it can. Never prints. Keeps the first hundred errors
 /// and as many warnings and notes and counts the rest: a broken file must not fill the memory with its complaints. What
 /// is said again of the same place, and a note that is said again anywhere, is kept and counted once.
 class Diagnostics {
  public:
+  /// `sink`, if there is one, is called with each diagnostic that is kept, when it is.
+  Diagnostics() = default;
+  explicit Diagnostics(DiagnosticSink sink) : sink_(std::move(sink)) {}
+
   void error(SourceLocation location, std::string message, std::string accepted = {});
   void warning(SourceLocation location, std::string message, std::string accepted = {});
   void note(SourceLocation location, std::string message, std::string accepted = {});
@@ -47,11 +56,14 @@ class Diagnostics {
 
   bool has_errors() const { return error_count_ > 0; }
   int error_count() const { return error_count_; }
+  /// Its message; empty if there is none.
+  std::string first_error() const;
   const std::vector<Diagnostic>& all() const { return all_; }
 
  private:
   void add(Diagnostic diagnostic, int& count);
 
+  DiagnosticSink sink_;
   std::vector<Diagnostic> all_;
   std::map<std::string, std::string> named_at_;  ///< "room.xml:6:36" by file
   int error_count_ = 0, warning_count_ = 0, note_count_ = 0;

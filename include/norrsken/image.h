@@ -4,10 +4,14 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "norrsken/memory.h"
+#include "norrsken/result.h"
 
 namespace norrsken {
 
@@ -55,7 +59,11 @@ IoStatus write_image(const std::string& path, const Image& image, const ToneMapp
 /// Reads EXR, PNG, JPEG, HDR, PFM, PPM, PGM, PBM, BMP, TGA and TIFF, told by their contents, as linear float channels: integers of
 /// up to 16 bits are decoded from sRGB, those of 32 are their values, alpha is left as it is (not multiplied). Of several images
 /// the first counts, of an EXR its data window; orientation tags are not heeded. Errors: not a regular file, above 4 GiB, unknown,
-/// damaged or cut off, more than 2^30 values or `most_bytes`, the file and its decoding included. `image` changes on success only.
+/// damaged or cut off, more than 2^30 values, or than is left of `memory`, the file and its decoding included; empty:
+/// MemoryBudget::of_machine(). The image itself is its owner's to count.
+Result<Image> read_image(const std::string& path, const std::shared_ptr<MemoryBudget>& memory = {});
+
+/// The same within so many bytes; `image` changes on success only.
 IoStatus read_image(const std::string& path, Image& image,
                     std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
 

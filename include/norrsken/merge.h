@@ -9,6 +9,7 @@
 #include "norrsken/image.h"
 #include "norrsken/memory.h"
 #include "norrsken/render.h"
+#include "norrsken/result.h"
 
 namespace norrsken {
 
@@ -35,10 +36,9 @@ struct MergedRender {
 /// Render::image.
 /// `memory` is that of two films and the image; empty: MemoryBudget::of_machine().
 /// Errors: a file that cannot be read, is damaged or holds no image yet; files of different renderings (scene, size, seed,
-/// sampler, instruction set, ...); samples that two files hold, or would hold in the end. `result` changes on success
-/// only.
-IoStatus merge_renders(const std::vector<std::string>& files, bool layers, MergedRender& result,
-                       std::shared_ptr<MemoryBudget> memory = {});
+/// sampler, instruction set, ...); samples that two files hold, or would hold in the end.
+Result<MergedRender> merge_renders(const std::vector<std::string>& files, bool layers = false,
+                                   std::shared_ptr<MemoryBudget> memory = {});
 
 /// Whether the file is a checkpoint, of this version of the program or of another, whole or damaged.
 bool is_checkpoint(const std::string& path);

@@ -3,12 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "norrsken/diagnostics.h"
 #include "norrsken/render.h"
+#include "norrsken/result.h"
 #include "norrsken/scene.h"
 
 namespace norrsken {
@@ -48,7 +47,6 @@ struct PathTrace {
 /// The sample of pixel (x, y) of the image that a rendering with these options takes as its number `sample`, with the same
 /// numbers on the way. Errors: an unknown instruction set or accelerator, a pixel outside of the image, or an integrator
 /// whose paths do not belong to pixels.
-std::optional<PathTrace> trace_path(const Scene& scene, const RenderOptions& options, int x, int y,
-                                    std::uint32_t sample, Diagnostics& diagnostics);
+Result<PathTrace> trace_path(const Scene& scene, const RenderOptions& options, int x, int y, std::uint32_t sample);
 
 }  // namespace norrsken

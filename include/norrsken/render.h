@@ -6,9 +6,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "norrsken/image.h"
+#include "norrsken/result.h"
 #include "norrsken/samples.h"
 #include "norrsken/scene.h"
 
@@ -36,6 +38,8 @@ struct RenderOptions {
   /// Render::create refuses it while another Render has it, of this process or another.
   std::string checkpoint = {};
   double checkpoint_seconds = 60;  ///< from one writing to the next
+  /// Called with each diagnostic of Render::create as it comes; the result has them all.
+  DiagnosticSink log = {};
 };
 
 struct RenderProgress {
@@ -66,35 +70,62 @@ struct RenderStatistics {
   bool samples_of_pixels = true;  ///< false: paths begin at the lights, and a sample's pixel is where it is counted
   double seconds = 0;
   RelativeError error = {};
-  bool cancelled = false;        ///< before the end
-  bool has_image = false;        ///< there are samples, and the layers are complete
+  bool cancelled = false;  ///< before the end
+  std::string failure;     ///< why it ended before the end without being cancelled: the system has no more threads
+  bool has_image = false;  ///< there are samples, and the layers are complete
   std::string checkpoint_error;  ///< as in RenderProgress
   std::string isa, accelerator;
   int threads = 0, lanes = 0;
 };
 
-/// One rendering of one scene. `run` may be called once; `cancel` from any thread or a signal handler.
+/// A part of an image, in its pixels.
+struct ImageRegion {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// What every pixel has by now.
+struct RenderPass {
+  std::uint32_t samples = 0;  ///< so many at least, of the image
+  bool has_layers = false;    ///< those of the first hits are complete, or there are none
+};
+
+/// Called from the thread that called `run`, while the others go on; they may call everything of their Render but `run`.
+struct RenderCallbacks {
+  std::function<void(const RenderProgress&)> on_progress = {};  ///< about ten times a second, and once at the end
+  /// When every pixel has more than at the call before: after the first sample of each and the second, then at most ten
+  /// times a second, and at the end.
+  std::function<void(const RenderPass&)> on_pass = {};
+};
+
+/// One rendering of one scene. `run` may be called once; everything else at any time, from any thread; `cancel` from a
+/// signal handler, too.
 class Render {
  public:
-  /// Errors (unknown instruction set, one that this processor lacks, no samples, the checkpoint of something else) go to
-  /// `diagnostics`.
-  static std::unique_ptr<Render> create(const Scene& scene, const RenderOptions& options, Diagnostics& diagnostics);
+  /// Builds nothing that the scene has already, nor what another rendering of it has built. Errors: an unknown instruction
+  /// set, one that this processor lacks, no samples, the checkpoint of something else, too little memory.
+  static Result<std::unique_ptr<Render>> create(const Scene& scene, const RenderOptions& options = {});
   virtual ~Render() = default;
 
-  /// Renders until all samples are taken or `cancel` is called, and writes the checkpoint. `on_progress` is called from the calling thread
-  /// about ten times a second and once at the end.
-  virtual RenderStatistics run(const std::function<void(const RenderProgress&)>& on_progress = {}) = 0;
+  /// Renders until all samples are taken or `cancel` is called, and writes the checkpoint.
+  virtual RenderStatistics run(const RenderCallbacks& callbacks) = 0;
+  RenderStatistics run(std::function<void(const RenderProgress&)> on_progress = {}) {
+    return run(RenderCallbacks{std::move(on_progress), {}});
+  }
   virtual void cancel() noexcept = 0;
   /// Whether samples are being taken at this moment. Otherwise there is nothing to cancel: what they have come to is summed
   /// up or saved. From any thread, and from signal handlers.
   virtual bool is_sampling() const noexcept = 0;
 
-  /// What has been rendered, asked after `run`: R, G, B; `layers` adds `samples`, `variance.R/G/B` (of the mean),
+  /// What has been rendered by now: R, G, B; `layers` adds `samples`, `variance.R/G/B` (of the mean),
   /// `error.R/G/B` (its root; both NaN while a pixel has too few samples to tell), `interval.R/G/B` (half the width of the
   /// interval around the value that holds the true one with a probability of 95 %, from the variances of the pixel and
   /// of its neighbours) and, with RenderOptions::features,
   /// `depth.Z`, `normal.X/Y/Z`, `albedo.R/G/B`, `id`. Its metadata say how it was made.
-  virtual Image image(bool layers = false) const = 0;
+  ///
+  /// While `run` is under way, each pixel is the mean of whole samples, one with more of them than another perhaps; layers
+  /// of the first hits are there as soon as they are complete. Of the workers, only those wait that come to pixels which
+  /// are being copied. `region` is the part that is wanted; what of it is beyond the image is left out.
+  virtual Image image(bool layers = false, const std::optional<ImageRegion>& region = {}) const = 0;
 };
 
 /// Whether a checkpoint could be written there, asked before a long render: the folder can be written to, and no other

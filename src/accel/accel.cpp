@@ -33,7 +33,7 @@ bool bvh_knows(const SceneTables& scene) {
          std::ranges::none_of(scene.analytics, [](const AnalyticRecord& a) { return has_elements(a.kind); });
 }
 
-Accel::Accel(const SceneTables& scene, AccelKind kind, int threads) {
+Accel::Accel(const SceneTables& scene, AccelKind kind, Variation variation, int threads) {
   spheres_ = build_spheres(scene);
   view_.kind = kind;
   view_.sphere_count = static_cast<std::uint32_t>(spheres_.size());
@@ -45,7 +45,7 @@ Accel::Accel(const SceneTables& scene, AccelKind kind, int threads) {
     const auto others = std::stable_partition(
         spheres_.begin(), spheres_.end(), [&](const SphereRecord& s) { return scene.light_of(s.primitive) != kNone; });
     view_.emitter_sphere_count = static_cast<std::uint32_t>(others - spheres_.begin());
-    planes_ = build_planes(scene);
+    planes_ = build_planes(scene, variation);
     view_.planes = planes_.planes.data();
     view_.polygons = planes_.polygons.data();
     view_.rows = planes_.rows.data();

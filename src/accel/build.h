@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "accel/bvh/layout.h"
@@ -23,7 +24,9 @@ struct PlaneTables {
 };
 
 /// Merges coplanar triangles into convex polygons and sorts them into planes.
-PlaneTables build_planes(const SceneTables& scene);
+/// Triangles that differ in what they show by `variation` (layers may show what the surfaces' models do not look at) stay
+/// apart.
+PlaneTables build_planes(const SceneTables& scene, Variation variation = Variation::none);
 
 /// The spheres in order of their primitives.
 Array<SphereRecord> build_spheres(const SceneTables& scene);
@@ -93,12 +96,18 @@ bool bvh_knows(const SceneTables& scene);
 /// What stands beside its triangles is tried one by one; for more than so many Embree is chosen.
 inline constexpr std::size_t kBesideBvhAtMost = 32;
 
+/// A structure that could not be built for want of threads, or of memory that nobody counts.
+class AccelFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// One of them, with all that its view borrows.
 class Accel {
  public:
   /// Analytic primitives and instances are for Embree, the former if bvh_knows() them for the hierarchy too. `threads`: that build a hierarchy, 0 for all of the machine;
   /// Embree decides by itself.
-  Accel(const SceneTables& scene, AccelKind kind, int threads = 0);
+  Accel(const SceneTables& scene, AccelKind kind, Variation variation = Variation::none, int threads = 0);
   const AccelView& view() const { return view_; }
 
  private:

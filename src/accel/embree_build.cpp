@@ -5,7 +5,6 @@
 #include <cstring>
 #include <new>
 #include <span>
-#include <stdexcept>
 #include <string>
 
 #include "accel/build.h"
@@ -97,7 +96,7 @@ EmbreeScene::EmbreeScene() {
   RTCDevice device = rtcNewDevice(nullptr);
   if (device == nullptr) {
     if (rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    throw std::runtime_error(std::string("Embree cannot create a device") + kPerhapsStarved);
+    throw AccelFailed(std::string("Embree cannot create a device") + kPerhapsStarved);
   }
   device_ = device;
   rtcSetDeviceMemoryMonitorFunction(
@@ -160,7 +159,7 @@ void EmbreeScene::build(const SceneTables& scene, std::span<const SphereRecord> 
   const RTCError error = rtcGetDeviceError(device);
   memory_.throw_if_exceeded();
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (error != RTC_ERROR_NONE) throw std::runtime_error(std::string("Embree cannot build the scene") + kPerhapsStarved);
+  if (error != RTC_ERROR_NONE) throw AccelFailed(std::string("Embree cannot build the scene") + kPerhapsStarved);
 }
 
 EmbreeScene::~EmbreeScene() {

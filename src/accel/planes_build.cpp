@@ -174,8 +174,8 @@ void share_planes(std::vector<ConvexPolygon>& polygons) {
 
 }  // namespace
 
-PlaneTables build_planes(const SceneTables& scene) {
-  std::vector<ConvexPolygon> polygons = merge_triangles(scene);
+PlaneTables build_planes(const SceneTables& scene, Variation variation) {
+  std::vector<ConvexPolygon> polygons = merge_triangles(scene, variation);
   share_planes(polygons);
   PlaneTables tables;
   PlaneSetBuilder builder(tables);

@@ -65,12 +65,12 @@ bool same_texcoords(const SceneTables& scene, std::uint32_t a, std::uint32_t b) 
   });
 }
 
-bool same_surface(const SceneTables& scene, std::uint32_t a, std::uint32_t b) {
+bool same_surface(const SceneTables& scene, Variation at_least, std::uint32_t a, std::uint32_t b) {
   const SurfaceRecord &s = scene.surfaces[a], &t = scene.surfaces[b];
   if (s.shape != t.shape || s.material_front != t.material_front || s.material_back != t.material_back) return false;
   const ShapeRecord& shape = scene.shapes[s.shape];
   if (shape.smooth != 0 || scene.light_of(a) != scene.light_of(b)) return false;
-  switch (shape.variation) {
+  switch (std::max(shape.variation, at_least)) {
     case Variation::none:
       return true;
     case Variation::over_uv:  // without texture coordinates they are each triangle's barycentric ones
@@ -165,7 +165,7 @@ bool share_edge(const Triangle& a, const Triangle& b) {
 
 class Merger {
  public:
-  explicit Merger(const SceneTables& scene) : scene_(scene) {
+  Merger(const SceneTables& scene, Variation variation) : scene_(scene), variation_(variation) {
     const std::uint32_t n = scene.triangle_count();
     triangles_.reserve(n);
     for (std::uint32_t i = 0; i < n; ++i) triangles_.push_back(make_triangle(scene, i));
@@ -190,7 +190,7 @@ class Merger {
     taken[seed] = true;
     for (std::size_t at = 0; at < patch.size(); ++at) {
       for (std::uint32_t i = seed + 1; i < triangles_.size(); ++i) {
-        if (!taken[i] && same_surface(scene_, seed, i) && same_plane(triangles_[seed], triangles_[i]) &&
+        if (!taken[i] && same_surface(scene_, variation_, seed, i) && same_plane(triangles_[seed], triangles_[i]) &&
             share_edge(triangles_[patch[at]], triangles_[i])) {
           taken[i] = true;
           patch.push_back(i);
@@ -228,6 +228,7 @@ class Merger {
   }
 
   const SceneTables& scene_;
+  Variation variation_;
   std::vector<Triangle> triangles_;
   std::vector<ConvexPolygon> polygons_;
 };
@@ -256,6 +257,8 @@ double scene_scale(const SceneTables& scene) {
   return scale;
 }
 
-std::vector<ConvexPolygon> merge_triangles(const SceneTables& scene) { return Merger(scene).run(); }
+std::vector<ConvexPolygon> merge_triangles(const SceneTables& scene, Variation variation) {
+  return Merger(scene, variation).run();
+}
 
 }  // namespace norrsken

@@ -19,7 +19,8 @@ struct ConvexPolygon {
 
 /// The scene's triangles, merged where the result is convex and the surface is one: same shape, material and light, flat
 /// shading, and what varies over it is one affine map of the polygon.
-std::vector<ConvexPolygon> merge_triangles(const SceneTables& scene);
+/// `variation`: at least so much varies over every surface.
+std::vector<ConvexPolygon> merge_triangles(const SceneTables& scene, Variation variation = Variation::none);
 
 /// Length scale of the scene: the largest absolute coordinate of its bounds, at least the smallest positive double.
 double scene_scale(const SceneTables& scene);

@@ -30,10 +30,7 @@ CameraRecord compile_sensor_thinlens(Parameters& p, Builder& builder, const Film
   const double half_width = half_width_of_view(p, static_cast<double>(film.full_width) / film.full_height);
   read_clip_planes(p, camera);
   const double radius = p.number("aperture_radius", 1, 0, kMaxCoordinate, Ends::open_below);
-  if (!p.has("aperture_radius")) {
-    p.error("aperture_radius", "sensor 'thinlens' needs a parameter 'aperture_radius'",
-            "<float name=\"aperture_radius\" value=\"...\"/>");
-  }
+  p.require("aperture_radius", "<float name=\"aperture_radius\" value=\"...\"/>");
   const double focus =
       p.number("focus_distance", static_cast<double>(camera.far_clip), 0, kMaxCoordinate, Ends::open_below);
   if (p.has("aperture_radius") && radius > kMaxRadius * focus) {

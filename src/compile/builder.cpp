@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -19,8 +20,18 @@ namespace {
 
 /// Adapters within adapters: far more than any scene needs, far fewer than the stack holds.
 constexpr int kMaxBsdfDepth = 64;
-/// The same of integrators.
-constexpr int kMaxIntegratorDepth = 8;
+
+/// Sensors, which a scene without any has by then, and integrators.
+Description outline_of(const Description& description, const std::optional<Node>& default_sensor) {
+  auto root = std::make_shared<Node>();
+  root->kind = description.scene->kind;
+  root->location = description.scene->location;
+  for (const Node::Child& child : description.scene->children) {
+    if (child.node->kind == "sensor" || child.node->kind == "integrator") root->children.push_back(child);
+  }
+  if (default_sensor) root->add(*default_sensor);
+  return {std::move(root), description.search_paths, description.parameters};
+}
 
 template <class Container>
 std::uint64_t bytes_of(const Container& container) {
@@ -159,80 +170,6 @@ void Builder::add_environment(const Node& node, const LightRecord& light, const 
   tables().environment = add_light(light, power);
 }
 
-IntegratorSettings Builder::integrator(const Node& node) {
-  IntegratorSettings settings;
-  if (integrator_depth_ == kMaxIntegratorDepth) {
-    diagnostics_.error(node.location, fmt::format("integrators are nested more than {} deep", kMaxIntegratorDepth),
-                       fmt::format("up to {} inside each other", kMaxIntegratorDepth));
-  } else if (const auto* plugin = find_plugin(integrator_plugins(), node, diagnostics_)) {
-    ++integrator_depth_;
-    Parameters p = parameters(node);
-    settings = plugin->compile(p, *this);
-    p.finish();
-    describe(node, {});
-    --integrator_depth_;
-  }
-  return settings;
-}
-
-FilterRecord Builder::rfilter(Parameters& film) {
-  Node default_filter;
-  default_filter.kind = "rfilter";
-  default_filter.plugin = "gaussian";
-  default_filter.location = film.node().location;
-  const Node::Child* child = film.child("rfilter");
-  const Node& node = child ? *child->node : default_filter;
-  FilterRecord filter;
-  if (const auto* plugin = find_plugin(rfilter_plugins(), node, diagnostics_)) {
-    Parameters p = parameters(node);
-    filter = plugin->compile(p, *this);
-    p.finish();
-    describe(node, {});
-  }
-  return filter;
-}
-
-/// Compiles `child`, or the plugin `fallback` if there is none. A `replacement` from the command line takes the node's
-/// parameters, except for those it does not know.
-template <class Function>
-auto Builder::compile_chosen(const Node::Child* child, const char* kind, const char* fallback,
-                             const std::optional<std::string>& replacement, std::span<const Plugin<Function>> table,
-                             std::string& plugin_name) {
-  Node node;
-  if (child) {
-    node = *child->node;
-  } else {
-    node.kind = kind;
-    node.plugin = fallback;
-  }
-  const bool replaced = replacement && *replacement != node.plugin;
-  if (replaced) {
-    node.plugin = *replacement;
-    node.plugin_location = {};
-  }
-  decltype(table[0].compile(std::declval<Parameters&>(), *this)) settings;
-  plugin_name = node.plugin;
-  if (const auto* plugin = find_plugin(table, node, diagnostics_)) {
-    Parameters p = parameters(node);
-    settings = plugin->compile(p, *this);
-    if (!replaced) p.finish();
-    describe(node, {});
-  }
-  return settings;
-}
-
-void Builder::compile_sampler(Parameters& sensor, const LoadOptions& options) {
-  tables().sampler = compile_chosen(sensor.child("sampler"), "sampler", "sobol", options.sampler, sampler_plugins(),
-                                    scene_.info.sampler);
-  if (!options.samples_per_pixel) return;
-  if (*options.samples_per_pixel < 1) {
-    diagnostics_.error({}, fmt::format("{} samples per pixel", *options.samples_per_pixel),
-                       fmt::format("an integer from 1 to {}", kMaxSampleCount));
-    return;
-  }
-  tables().sampler.samples_per_pixel = *options.samples_per_pixel;
-}
-
 void Builder::choose_lights() {
   if (!light_powers_.empty() && std::ranges::all_of(light_powers_, [](const LightPower& p) { return p.weight == 0; })) {
     diagnostics_.error(description_.scene->location, "every emitter has a sampling_weight of 0",
@@ -269,23 +206,12 @@ void Builder::summarise() {
   if (const auto& budget = MemoryScope::current()) info.memory.loading = budget->peak();
 }
 
-Variation Builder::variation_of_layers() const {
-  Variation variation = Variation::none;
-  for (const FeatureLayer& layer : scene_.layers.features) {
-    if (layer.feature == kFeaturePrimitive) return Variation::by_triangle;
-    if ((1u << layer.feature & kUvFeatures) != 0) variation = Variation::over_uv;
-  }
-  return variation;
-}
-
 LoadedScene Builder::build(const LoadOptions& options) {
   const Node& root = *description_.scene;
   is_whole_ = !diagnostics_.has_errors();
   const std::set<const Node*> inside = nodes_inside_of_others(root);
   Parameters p = parameters(root);
-  tables().integrator = compile_chosen(integrator_of_scene(p, inside), "integrator", "path", options.integrator,
-                                       integrator_plugins(), scene_.info.integrator);
-  compile_sensor(p, options);
+  compile_frame(p, inside, view_of(options), options.reserve_film);
   const std::set<const Node*> in_use = nodes_in_use(root);
   const auto for_each = [&](const char* kind, auto&& compile_it) {
     for (const Node::Child* child : p.children(kind)) {
@@ -308,14 +234,14 @@ LoadedScene Builder::build(const LoadOptions& options) {
     if (tables().lights.empty()) diagnostics_.warning(root.location, "the scene has no emitter: its image is black");
     tell_what_is_beyond_view();
   }
-  const Variation of_layers = variation_of_layers();
-  for (ShapeRecord& shape : tables().shapes) shape.variation = std::max(shape.variation, of_layers);
   geometry_.finish(scene_.info);
   attributes_.finish();
   choose_lights();
   summarise();
   scene_.memory = MemoryScope::current();
   scene_.file = root.location.file;
+  scene_.outline = outline_of(description_, default_sensor_);
+  scene_.view = view_of(options);
   return std::move(scene_);
 }
 

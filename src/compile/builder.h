@@ -7,7 +7,9 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <tuple>
@@ -86,6 +88,9 @@ class ParameterBlock {
 /// 6 floats: the map of texture coordinates that a transformation makes in x and y (see texture/texture.h).
 void add_to_uv(ParameterBlock& block, const glm::dmat4& transform);
 
+/// How often an emitter is chosen, in proportion.
+double read_sampling_weight(Parameters& emitter);
+
 class Builder {
  public:
   Builder(const Description& description, const FileSystem& files, Diagnostics& diagnostics)
@@ -93,6 +98,8 @@ class Builder {
 
   /// Compiles the whole scene; look at the diagnostics before using what comes out.
   LoadedScene build(const LoadOptions& options);
+  /// The frame alone, of a description that need have no more than sensors and integrators.
+  SceneFrame build_frame(const ViewOptions& view);
 
   // --- for plugins -------------------------------------------------------------------------------------------------
   const FileSystem& files() const { return files_; }
@@ -144,6 +151,10 @@ class Builder {
   GeometryBuilder& geometry() { return geometry_; }
   /// The settings of an integrator inside another one.
   IntegratorSettings integrator(const Node& node);
+  /// What the integrator does about lights. Tables that depend on it serve no other integrator: the rest of the scene
+  /// should not ask.
+  bool paths_begin_at_lights() { return *(scene_.asked.from_lights = tables().integrator.from_lights); }
+  bool paths_find_lights() { return *(scene_.asked.finds_lights = tables().integrator.finds_lights()); }
   /// What is asked for besides the image.
   SceneLayers& layers() { return scene_.layers; }
   /// The filter of a film node; Mitsuba's, gaussian, if it names none.
@@ -157,13 +168,17 @@ class Builder {
   void refuse_kinds_to_come(Parameters& parameters);
   /// The texture of that name, if it has one, within its range.
   std::optional<Texture> texture_of(Parameters& p, std::string_view name, double min, double max);
-  void compile_sensor(Parameters& scene, const LoadOptions& options);
-  void compile_sampler(Parameters& sensor, const LoadOptions& options);
+  /// Integrator and sensor; `reserve`: see measure_film.
+  void compile_frame(Parameters& scene, const std::set<const Node*>& inside, const ViewOptions& view, bool reserve);
+  void compile_sensor(Parameters& scene, const ViewOptions& view, bool reserve);
+  /// The sensor that is chosen, with what `view` says otherwise of it; null if there is none, or after a complaint.
+  std::shared_ptr<const Node> sensor_node(Parameters& scene, const ViewOptions& view);
+  void compile_sampler(Parameters& sensor, const ViewOptions& view);
   void compile_camera(Parameters& sensor);
   /// That of a scene without a sensor, once its bounds are known.
   void compile_default_camera();
   /// `place`: where the film's size comes from.
-  FilmSettings film(Parameters& sensor, const LoadOptions& options, SourceLocation& place);
+  FilmSettings film(Parameters& sensor, const ViewOptions& view, SourceLocation& place);
   /// How much memory film and image take; `reserve`: which stays free for them while the scene is loaded.
   void measure_film(const SourceLocation& place, bool reserve);
   void compile_shape(const Node& node);
@@ -181,13 +196,15 @@ class Builder {
   void summarise();
   /// What is being compiled varies so, at least.
   void vary(Variation variation) { variation_ = std::max(variation_, variation); }
-  /// What the layers that are asked for show of the surfaces themselves.
-  Variation variation_of_layers() const;
 
+  /// What stands in the place of a node of the scene: another plugin, which takes its parameters, or another node.
+  struct Replacement {
+    const std::optional<std::string>& plugin;
+    const std::optional<Node>& node;
+  };
   template <class Function>
-  auto compile_chosen(const Node::Child* child, const char* kind, const char* fallback,
-                      const std::optional<std::string>& replacement, std::span<const Plugin<Function>> table,
-                      std::string& plugin_name);
+  auto compile_chosen(const Node::Child* child, const char* kind, const char* fallback, const Replacement& replacement,
+                      std::span<const Plugin<Function>> table, std::string& plugin_name);
 
   const Description& description_;
   const FileSystem& files_;
@@ -203,6 +220,8 @@ class Builder {
   std::map<std::tuple<TextureWord, double, double>, Texture> clamped_textures_;
   std::map<const Node*, const Node*> textures_by_uv_;
   std::optional<Material> default_material_;
+  bool is_frame_alone_ = false;
+  std::shared_ptr<const Node> sensor_;  ///< that is used
   std::optional<Node> default_sensor_;  ///< of a scene that has none
   bool is_whole_ = true;  ///< whether the scene was read without errors: what is missing is not in the file
   Variation variation_ = Variation::none;  ///< of what is being compiled

@@ -66,12 +66,16 @@ void give_rewound_texcoords(MeshData& mesh) {
 
 }  // namespace
 
+double read_sampling_weight(Parameters& emitter) {
+  constexpr double kMaxWeight = 1e12;
+  return emitter.number("sampling_weight", 1, 0, kMaxWeight);
+}
+
 void Builder::compile_emitter(const Node& node, std::uint32_t shape) {
   const auto* plugin = find_plugin(emitter_plugins(), node, diagnostics_);
   if (!plugin) return;
-  constexpr double kMaxWeight = 1e12;
   Parameters p = parameters(node);
-  sampling_weight_ = p.number("sampling_weight", 1, 0, kMaxWeight);
+  sampling_weight_ = read_sampling_weight(p);
   const std::size_t before = tables().lights.size();
   within_memory(node.location, "emitter " + quoted(node.plugin), diagnostics_,
                 [&] { plugin->compile(p, *this, shape); });

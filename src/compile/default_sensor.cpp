@@ -39,7 +39,7 @@ void look_at_box(Node& sensor, const glm::dvec3& lower, const glm::dvec3& upper)
   give(sensor, "near_clip", "float", distance / 100);
   give(sensor, "far_clip", "float", std::min(5 * longest + distance, kMaxCoordinate));
   give(sensor, "to_world", "transform",
-       glm::translate(glm::dmat4(1), glm::dvec3(center.x, center.y, lower.z - distance)));
+       to_transform(glm::translate(glm::dmat4(1), glm::dvec3(center.x, center.y, lower.z - distance))));
 }
 
 }  // namespace norrsken

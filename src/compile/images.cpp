@@ -61,9 +61,6 @@ std::optional<StoredImage> ImageStore::read(const std::string& path, bool raw, c
     diagnostics_.error(named_at, fmt::format("cannot read the image {}: {}", quoted(path, 200), reason), accepted);
     return std::nullopt;
   };
-  const auto warn = [&](const std::string& message) {
-    diagnostics_.warning(named_at, fmt::format("the image {} {}", quoted(path, 200), message));
-  };
   std::string error;
   auto contents = read_counted(files_, path, error);
   if (!contents) return refuse(error, "an image file");
@@ -71,7 +68,60 @@ std::optional<StoredImage> ImageStore::read(const std::string& path, bool raw, c
   error = read_texels(contents->bytes, image);
   contents.reset();
   if (!error.empty()) return refuse(error, "a PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR file");
+  return store(image, raw, path, named_at);
+}
 
+std::optional<StoredImage> ImageStore::of(Parameters& p, bool raw) {
+  if (!p.has("image")) {
+    const std::string filename = p.file("filename");
+    return filename.empty() ? std::nullopt : load(filename, raw, p.where("filename"));
+  }
+  const std::shared_ptr<const Image> image = p.image("image");
+  if (p.has("filename")) p.error("image", "both 'image' and 'filename' are given", "one of them");
+  if (!image) return std::nullopt;
+  if (const auto known = given_images_.find(image.get()); known != given_images_.end()) return known->second;
+  std::optional<StoredImage>& stored = given_images_[image.get()];
+  within_memory(p.where("image"), "an image", diagnostics_, [&] { stored = copy(*image, p); });
+  return stored;
+}
+
+std::optional<StoredImage> ImageStore::copy(const Image& image, Parameters& p) {
+  const auto find = [&](const char* name) {
+    const auto found = std::ranges::find(image.channels, name, &Channel::name);
+    return found == image.channels.end() ? nullptr : &*found;
+  };
+  std::vector<const Channel*> channels;
+  for (const char* name : {"R", "G", "B"}) channels.push_back(find(name));
+  if (std::ranges::find(channels, nullptr) != channels.end()) channels = {find("Y")};
+  if (channels.front() == nullptr) {
+    p.error("image", "'image' has no colours", "channels R, G and B, or Y");
+    return std::nullopt;
+  }
+  const bool has_pixels = image.width > 0 && image.height > 0;
+  const auto pixels = has_pixels ? static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) : 0;
+  for (const Channel* channel : channels) {
+    if (has_pixels && channel->values.size() == pixels) continue;
+    p.error("image",
+            fmt::format("channel '{}' of an image of {} x {} has {} values", channel->name, image.width, image.height,
+                        channel->values.size()),
+            "a value for each of at least one pixel");
+    return std::nullopt;
+  }
+  TexelImage texels;
+  texels.width = image.width, texels.height = image.height;
+  texels.channels = static_cast<int>(channels.size());
+  texels.values.reserve(pixels * channels.size());
+  for (std::size_t i = 0; i < pixels; ++i) {
+    for (const Channel* channel : channels) texels.values.push_back(channel->values[i]);
+  }
+  return store(texels, /*raw=*/true, "of the program", p.where("image"));
+}
+
+std::optional<StoredImage> ImageStore::store(const TexelImage& image, bool raw, const std::string& path,
+                                             const SourceLocation& named_at) {
+  const auto warn = [&](const std::string& message) {
+    diagnostics_.warning(named_at, fmt::format("the image {} {}", quoted(path, 200), message));
+  };
   auto& texels = tables_.texels;
   const auto channels = static_cast<std::size_t>(image.channels);
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);

@@ -9,10 +9,14 @@
 #include <utility>
 
 #include "norrsken/diagnostics.h"
+#include "norrsken/image.h"
 #include "scene/file_system.h"
+#include "scene/parameters.h"
 #include "tables/scene_tables.h"
 
 namespace norrsken {
+
+struct TexelImage;
 
 /// An image among the scene's texels. Row 0 is the top.
 struct StoredImage {
@@ -24,7 +28,7 @@ struct StoredImage {
   std::uint32_t table = 0;  ///< offset of that table
   glm::dvec3 mean{0};
   double min = 0, max = 0;
-  std::string path;  ///< of the file
+  std::string path;  ///< of the file, or what stands in messages for it
 };
 
 class ImageStore {
@@ -32,6 +36,9 @@ class ImageStore {
   ImageStore(const FileSystem& files, Diagnostics& diagnostics, SceneTables& tables)
       : files_(files), diagnostics_(diagnostics), tables_(tables) {}
 
+  /// The image of a plugin's node: the file that its parameter `filename` names, or the `image` that a program gave it,
+  /// whose numbers are taken as they are. Empty after a complaint.
+  std::optional<StoredImage> of(Parameters& p, bool raw);
   /// The image in a file, in linear sRGB; `raw`: with the numbers that are stored. Empty after a complaint.
   std::optional<StoredImage> load(const std::string& path, bool raw, const SourceLocation& named_at);
   /// A copy of an image of floats with its values brought into a range. Empty after a complaint.
@@ -39,6 +46,9 @@ class ImageStore {
 
  private:
   std::optional<StoredImage> read(const std::string& path, bool raw, const SourceLocation& named_at);
+  std::optional<StoredImage> copy(const Image& image, Parameters& p);
+  std::optional<StoredImage> store(const TexelImage& image, bool raw, const std::string& path,
+                                   const SourceLocation& named_at);
   /// Whether the scene may have so many more; complains if not.
   bool has_room(std::size_t texels, const std::string& path, const SourceLocation& named_at);
   /// What the 256 bytes mean: values stored with sRGB's transfer function, or fractions.
@@ -48,6 +58,7 @@ class ImageStore {
   Diagnostics& diagnostics_;
   SceneTables& tables_;
   std::map<std::pair<std::string, bool>, std::optional<StoredImage>> images_;
+  std::map<const Image*, std::optional<StoredImage>> given_images_;
   std::optional<std::uint32_t> byte_tables_[2];
 };
 

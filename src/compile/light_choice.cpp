@@ -84,10 +84,7 @@ void fill_alias_table(std::span<LightRecord> lights, std::span<const double> sha
 void choose_lights(SceneTables& tables, std::span<const LightPower> lights) {
   fill_alias_table(tables.lights, shares_of_choice(lights));
   const auto has_place = [](const LightPower& light) { return light.own > 0 && light.weight > 0; };
-  // Paths that begin at the lights have no place to choose them for.
-  if (tables.integrator.from_lights || std::ranges::count_if(lights, has_place) < std::ptrdiff_t{kLightTreeFrom})
-    return;
-  build_light_tree(tables, lights);
+  if (std::ranges::count_if(lights, has_place) >= std::ptrdiff_t{kLightTreeFrom}) build_light_tree(tables, lights);
 }
 
 }  // namespace norrsken

@@ -259,7 +259,7 @@ TEST(Messages, AnIncludedFileTellsWhereItWasNamed) {
             R"(part.xml:2:16: error: unknown shape 'sphre', did you mean 'sphere'? (named at scene.xml:8:22)
     2 |   <shape type="sphre"/>
       |                ^~~~~
-accepted: bsplinecurve, cube, cylinder, disk, instance, linearcurve, obj, ply, rectangle, sdfgrid, serialized, shapegroup, sphere
+accepted: bsplinecurve, cube, cylinder, disk, instance, linearcurve, mesh, obj, ply, rectangle, sdfgrid, serialized, shapegroup, sphere
 )");
 }
 

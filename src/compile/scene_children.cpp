@@ -95,11 +95,11 @@ std::vector<const Node*> emitters_of_scene(Parameters& scene, const std::set<con
   return emitters;
 }
 
-const Node* choose_sensor(Parameters& scene, const std::optional<std::string>& choice) {
+const Node* choose_sensor(Parameters& scene, const std::optional<std::string>& choice, bool tell_of_others) {
   const std::vector<const Node::Child*> sensors = scene.children("sensor");
   if (!choice) {
     if (sensors.empty()) return nullptr;
-    for (std::size_t i = 1; i < sensors.size(); ++i) {
+    for (std::size_t i = 1; tell_of_others && i < sensors.size(); ++i) {
       scene.diagnostics().warning(sensors[i]->location, "only the scene's first sensor is used, this one is left aside",
                                   fmt::format("--sensor {} for this one", word_for_sensor(sensors, i)));
     }

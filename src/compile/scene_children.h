@@ -31,8 +31,8 @@ const Node::Child* integrator_of_scene(Parameters& scene, const std::set<const N
 std::vector<const Node*> emitters_of_scene(Parameters& scene, const std::set<const Node*>& inside);
 
 /// The sensor with the id `choice`, or of that number, counted from 0; the first without a choice, with a warning if
-/// there are others. Null after a complaint.
-const Node* choose_sensor(Parameters& scene, const std::optional<std::string>& choice);
+/// there are others and `tell_of_others`. Null after a complaint.
+const Node* choose_sensor(Parameters& scene, const std::optional<std::string>& choice, bool tell_of_others);
 
 /// What to say to `choose_sensor` for a sensor: its number, unless that is the id of another one.
 std::string word_for_sensor(const std::vector<const Node::Child*>& sensors, std::size_t number);

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "base/aligned.h"
 #include "base/exact_sum.h"
+#include "base/zeroed_array.h"
 #include "tables/film_view.h"
 
 namespace norrsken {
@@ -37,7 +37,7 @@ class ExactPlanes {
 
  private:
   // Tiles are a multiple of a cache line wide: aligned, two threads on neighbouring tiles never write to one line.
-  AlignedVector<double> high_, low_;
+  ZeroedArray<double> high_, low_;
 };
 
 }  // namespace norrsken

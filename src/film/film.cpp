@@ -1,21 +1,17 @@
 #include "film/film.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "color/srgb.h"
+#include "film/film_image.h"
 #include "film/interval.h"
 #include "tables/film_memory.h"
 #include "tables/wave_types.h"
 
 namespace norrsken {
 namespace {
-
-constexpr const char* kColors[3] = {"R", "G", "B"};
 
 std::size_t pixel_count(const FilmSettings& settings) {
   return static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
@@ -177,100 +173,23 @@ FilmError Film::error(const FilmRegion& region) const {
 }
 
 Image Film::image(bool statistics, std::uint32_t feature_samples) const {
-  Image image;
-  image.width = static_cast<int>(width_);
-  image.height = static_cast<int>(height_);
-  image.exr_color = settings_.is_xyz()         ? Image::Color::xyz
-                    : settings_.is_luminance() ? Image::Color::luminance
-                                               : Image::Color::rgb;
-  image.exr_half = settings_.half_precision;
-  const std::size_t pixels = counts_.size();
-  const auto add = [&](const std::string& name) {
-    image.channels.push_back({name, std::vector<float>(pixels)});
-    return image.channels.size() - 1;
-  };
-  std::array<std::size_t, 3> color{}, variance{}, error{}, interval{};
-  for (std::size_t c = 0; c < 3; ++c) color[c] = add(kColors[c]);
-  std::size_t samples = 0;
-  if (statistics) {
-    samples = add("samples");
-    for (std::size_t c = 0; c < 3; ++c) variance[c] = add(std::string("variance.") + kColors[c]);
-    for (std::size_t c = 0; c < 3; ++c) error[c] = add(std::string("error.") + kColors[c]);
-    for (std::size_t c = 0; c < 3; ++c) interval[c] = add(std::string("interval.") + kColors[c]);
-  }
-  if (statistics) {
-    for (std::size_t i = 0; i < pixels; ++i) {
-      image.channels[samples].values[i] = static_cast<float>(counts_[i] & ~kSomeDropped);
-    }
-  }
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const PixelEstimate e = estimate(i, static_cast<int>(c));
-      image.channels[color[c]].values[i] = static_cast<float>(e.mean);
-      if (!statistics) continue;
-      const double known = e.known ? e.variance : std::numeric_limits<double>::quiet_NaN();
-      image.channels[variance[c]].values[i] = static_cast<float>(known);
-      image.channels[error[c]].values[i] = static_cast<float>(std::sqrt(known));
-    }
-    if (!statistics) continue;
-    image.channels[interval[c]].values =
-        confidence_intervals(width_, height_, image.channels[variance[c]].values, image.channels[samples].values);
-  }
-  if (settings_.has_alpha()) add_alpha(image, feature_samples);
-  for (const std::string& name : layers_.image_copies) {
-    for (const char* channel : {"R", "G", "B", "A"}) {
-      if (const Channel* source = image.find(channel)) {
-        std::vector<float> values = source->values;
-        image.channel(name + "." + channel).values = std::move(values);
-      }
-    }
-  }
-  add_moments(image);
-  if (feature_samples > 0) add_features(image, feature_samples);
-  return image;
+  const FilmRegion all{0, 0, width_, height_};
+  FilmImage image(*this, all, statistics, feature_samples);
+  image.take(all);
+  return std::move(image).finish();
 }
 
-std::vector<float> Film::feature(Feature feature, std::uint32_t samples) const {
-  const std::size_t pixels = counts_.size();
+double Film::feature(Feature feature, std::uint64_t pixel, std::uint32_t samples) const {
   const auto plane = static_cast<std::size_t>(std::popcount(feature_mask_ & ((1u << feature) - 1)));
   const double scale = (kDiscreteFeatures >> feature & 1u) != 0 ? 1.0 : 1.0 / samples;
-  std::vector<float> values(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) values[i] = static_cast<float>(features_[plane * pixels + i] * scale);
-  return values;
+  return features_[plane * counts_.size() + pixel] * scale;
 }
 
-void Film::add_features(Image& image, std::uint32_t feature_samples) const {
-  for (const FeatureLayer& layer : layers_.features) {
-    image.channel(layer.name).values = feature(layer.feature, feature_samples);
-  }
+double Film::moment(std::size_t axis, std::uint64_t pixel) const {
+  const std::uint32_t n = samples(pixel);
+  return n > 0 ? moments_[axis * counts_.size() + pixel] / n : 0;
 }
 
-void Film::add_alpha(Image& image, std::uint32_t feature_samples) const {
-  std::vector<float>& alpha = image.channel("A").values;
-  if (settings_.opaque) {
-    std::ranges::fill(alpha, 1.0f);
-  } else if (feature_samples > 0) {
-    alpha = feature(kFeatureCoverage, feature_samples);
-  }
-}
-
-void Film::add_moments(Image& image) const {
-  const std::size_t pixels = counts_.size();
-  for (const std::string& name : layers_.moments) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::string channel = name + "." + "XYZ"[k];
-      std::vector<float> first(pixels), second(pixels);
-      for (std::size_t i = 0; i < pixels; ++i) {
-        const std::uint32_t n = counts_[i] & ~kSomeDropped;
-        for (int c = 0; c < 3; ++c) {
-          first[i] += static_cast<float>(kXyzFromSrgb[k][static_cast<std::size_t>(c)] * estimate(i, c).mean);
-        }
-        if (n > 0) second[i] = static_cast<float>(moments_[k * pixels + i] / n);
-      }
-      image.channel(channel).values = std::move(first);
-      image.channel("m2_" + channel).values = std::move(second);
-    }
-  }
-}
+std::uint32_t Film::samples(std::uint64_t pixel) const { return counts_[pixel] & ~kSomeDropped; }
 
 }  // namespace norrsken

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/aligned.h"
+#include "base/zeroed_array.h"
 #include "film/exact_planes.h"
 #include "film/pixel_estimate.h"
 #include "film/sample_set.h"
@@ -78,21 +78,24 @@ class Film {
   /// Takes in what a film of the same settings holds of other samples; exact (see base/exact_sum.h).
   void add(const Film& other);
 
+  const FilmSettings& settings() const { return settings_; }
+  const SceneLayers& layers() const { return layers_; }
+
+  // Of one pixel.
   PixelEstimate estimate(std::uint64_t pixel, int channel) const;
+  std::uint32_t samples(std::uint64_t pixel) const;
+  /// The mean of X, Y or Z squared.
+  double moment(std::size_t axis, std::uint64_t pixel) const;
+  /// The mean over `samples` samples.
+  double feature(Feature feature, std::uint64_t pixel, std::uint32_t samples) const;
+
   FilmError error(const FilmRegion& region) const;
 
-  /// R, G, B, A if the film has alpha, and the layers that the film was made for, features divided by
-  /// `feature_samples`; with `statistics` also samples, variance.* and error.*.
+  /// All of it, while nobody writes to it: see film/film_image.h.
   Image image(bool statistics, std::uint32_t feature_samples) const;
 
  private:
   PixelEstimate estimate_samples(std::uint64_t pixel, int channel) const;
-
-  void add_features(Image& image, std::uint32_t feature_samples) const;
-  void add_moments(Image& image) const;
-  void add_alpha(Image& image, std::uint32_t feature_samples) const;
-  /// The mean of one feature over `samples` samples, pixel by pixel.
-  std::vector<float> feature(Feature feature, std::uint32_t samples) const;
 
   FilmSettings settings_;
   std::uint32_t width_, height_;
@@ -101,7 +104,7 @@ class Film {
   std::uint32_t feature_mask_ = 0;
   SampleSet samples_;
   ExactPlanes sums_, moments_, features_;
-  AlignedVector<std::uint32_t> counts_;
+  ZeroedArray<std::uint32_t> counts_;
   Splats splats_;
 };
 

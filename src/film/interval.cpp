@@ -9,8 +9,7 @@
 namespace norrsken {
 namespace {
 
-/// How far a pixel's neighbours are away at most, in pixels, and the share of theirs in its variance.
-constexpr std::uint32_t kNeighborReach = 5;
+/// The share of the neighbours' variance in a pixel's.
 constexpr float kNeighborShare = 0.85f;
 /// Of the power mean of their variances: between the mean of variances, which the noisiest rule, and that of deviations.
 constexpr float kExponent = 0.75f;

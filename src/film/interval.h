@@ -16,6 +16,9 @@
 
 namespace norrsken {
 
+/// How far those neighbours are away at most, in pixels.
+inline constexpr std::uint32_t kNeighborReach = 5;
+
 /// Of one channel, row by row: half the width of each pixel's interval; NaN where not even the neighbours' variances are
 /// known. `variances` are those of the pixels' means, NaN where unknown, and `samples` how many are in each, by which
 /// variances of means compare.

@@ -4,8 +4,10 @@
 
 #include <bit>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "base/aligned.h"
 #include "film/film.h"
 
 namespace norrsken {
@@ -155,7 +157,7 @@ TEST(Splats, AreAddedToTheFilmsSamples) {
   splats.add(whole_film(), SplatQueue({{2.5f, 1.5f, 80, 0}}).queue, dropped);
   splats.count_paths(whole_film());
   const PixelEstimate added = splats.estimate(7, 0);
-  film.add_splats(splats);
+  film.add_splats(std::move(splats));
   EXPECT_DOUBLE_EQ(film.estimate(7, 0).mean, 2 + 1);
   EXPECT_DOUBLE_EQ(film.estimate(7, 0).variance, before.variance + added.variance);
   EXPECT_TRUE(film.estimate(7, 0).known);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/text.h"
 
@@ -19,9 +20,8 @@ bool is_name_character(char c) {
 
 }  // namespace
 
-SceneParameters::SceneParameters(const std::vector<std::pair<std::string, std::string>>& overrides,
-                                 Diagnostics& diagnostics)
-    : diagnostics_(diagnostics) {
+SceneParameters::SceneParameters(const Values& overrides, Values preferred, Diagnostics& diagnostics)
+    : preferred_(std::move(preferred)), diagnostics_(diagnostics) {
   for (const auto& [name, value] : overrides) {
     bool created = false;
     Entry& entry = entries_[entry_of(name, created)];
@@ -51,8 +51,10 @@ void SceneParameters::define(const std::string& name, const std::string& value, 
   bool created = false;
   const std::size_t index = entry_of(name, created);
   if (created) {
-    entries_[index].value = value;
-    entries_[index].set_by = set_by(raw);
+    const auto preferred = std::ranges::find(preferred_, name, &Values::value_type::first);
+    const bool is_preferred = preferred != preferred_.end();
+    entries_[index].value = is_preferred ? preferred->second : value;
+    entries_[index].set_by = is_preferred ? "-D" + name + "=" + preferred->second : set_by(raw);
   }
   mark_defined(index);
 }

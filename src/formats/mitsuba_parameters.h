@@ -17,7 +17,9 @@ namespace norrsken {
 /// from the command line stays.
 class SceneParameters {
  public:
-  SceneParameters(const std::vector<std::pair<std::string, std::string>>& overrides, Diagnostics& diagnostics);
+  using Values = std::vector<std::pair<std::string, std::string>>;
+  /// `preferred` win over `<default>`s as overrides do, but only where there are any.
+  SceneParameters(const Values& overrides, Values preferred, Diagnostics& diagnostics);
 
   /// `<default>`. The first definition wins, and an override wins over all. `raw` is the value before it was filled in.
   void define(const std::string& name, const std::string& value, std::string_view raw);
@@ -46,6 +48,7 @@ class SceneParameters {
   std::size_t entry_of(const std::string& name, bool& created);
   void mark_defined(std::size_t index);
 
+  Values preferred_;
   std::vector<Entry> entries_;
   std::unordered_map<std::string, std::size_t> index_;  // of the entry of a name
   std::vector<std::size_t> order_;                      // of definition

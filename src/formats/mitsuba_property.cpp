@@ -40,7 +40,7 @@ bool is_triple(const Element& element) {
 // The first step is applied first: each one multiplies from the left.
 std::optional<Property::Transform> read_transform(MitsubaContext& context, const XmlDocument& document,
                                                   pugi::xml_node xml) {
-  Property::Transform result(1);
+  glm::dmat4 result(1);
   bool good = true;
   for (const pugi::xml_node child : xml.children()) {
     if (context.gave_up()) return std::nullopt;
@@ -64,7 +64,7 @@ std::optional<Property::Transform> read_transform(MitsubaContext& context, const
     good = good && matrix;
     if (matrix) result = *matrix * result;
   }
-  return good ? std::optional(result) : std::nullopt;
+  return good ? std::optional(to_transform(result)) : std::nullopt;
 }
 
 // Gives the property its value; false after a complaint.
@@ -83,7 +83,7 @@ bool fill(Property& property, MitsubaContext& context, const XmlDocument& docume
   if (type == "transform") return put(read_transform(context, document, xml));
   if (type == "point" || type == "vector") {
     const auto value = read_coordinates(element, std::nullopt, context.diagnostics);
-    if (value) property.value = Property::Vector{*value};
+    if (value) property.value = Property::Vector{to_array(*value)};
     return value.has_value();
   }
   const Literal& value = *element.find("value");

@@ -13,7 +13,7 @@
 namespace norrsken {
 namespace {
 
-using Matrix = std::optional<Property::Transform>;
+using Matrix = std::optional<glm::dmat4>;
 
 Matrix translate(const Element& step, RotationAxis, Diagnostics& diagnostics) {
   const auto by = read_coordinates(step, 0.0, diagnostics);
@@ -177,8 +177,7 @@ std::vector<std::string> transform_step_names() {
   return names;
 }
 
-std::optional<Property::Transform> read_transform_step(const Element& step, RotationAxis axis,
-                                                       Diagnostics& diagnostics) {
+std::optional<glm::dmat4> read_transform_step(const Element& step, RotationAxis axis, Diagnostics& diagnostics) {
   return find_step(step.name)->read(step, axis, diagnostics);
 }
 

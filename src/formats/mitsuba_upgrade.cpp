@@ -255,7 +255,7 @@ void MitsubaUpgrade::upgrade_sensor(Node& node, SceneVersion of) {
   for (Property& property : node.properties) {
     auto* matrix = std::get_if<Property::Transform>(&property.value);
     if (property.name != "to_world" || !matrix) continue;
-    *matrix = *matrix * glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1));
+    *matrix = to_transform(to_glm(*matrix) * glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1)));
     note(property.name_location, fmt::format("{} begins with <scale x=\"-1\"/>", quoted(property.file_name())));
   }
   if (node.plugin != "perspective") return;

@@ -52,7 +52,7 @@ inline std::string text_of(const Property& property) {
 /// Multiplies a number, a colour or a spectrum.
 inline void multiply(Property& property, double factor) {
   if (auto* rgb = std::get_if<Property::Rgb>(&property.value)) {
-    rgb->value *= factor;
+    for (double& component : rgb->value) component *= factor;
   } else if (auto* spectrum = std::get_if<Property::Spectrum>(&property.value)) {
     for (auto& sample : spectrum->samples) sample.second *= factor;
   } else {
@@ -61,7 +61,7 @@ inline void multiply(Property& property, double factor) {
 }
 
 /// A property that the file does not have; complaints about it point at the node's type.
-inline void add_property(Node& node, std::string name, std::string type, decltype(Property::value) value) {
+inline void add_property(Node& node, std::string name, std::string type, Property::Value value) {
   Property property;
   property.name = std::move(name);
   property.type = std::move(type);

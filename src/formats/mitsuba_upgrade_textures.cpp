@@ -43,7 +43,7 @@ void MitsubaUpgrade::upgrade_texture(Node& node) {
     note(first->location, "'uscale', 'vscale', 'uoffset' and 'voffset' are 'to_uv'");
   }
   to_uv.name = "to_uv", to_uv.type = "transform", to_uv.written = first->name;
-  to_uv.value = glm::translate(glm::scale(glm::dmat4(1), scale), offset);
+  to_uv.value = to_transform(glm::translate(glm::scale(glm::dmat4(1), scale), offset));
   for (const char* name : {"uscale", "vscale", "uoffset", "voffset"}) remove(node, name);
   node.properties.push_back(std::move(to_uv));
 }

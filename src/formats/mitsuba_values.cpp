@@ -50,9 +50,9 @@ int hex_digit(char c) {
 std::optional<Property::Rgb> hex_color(std::string_view text) {
   if (text.size() != 7) return std::nullopt;
   Property::Rgb color{};
-  for (int i = 0; i < 3; ++i) {
-    const int high = hex_digit(text[static_cast<std::size_t>(1 + 2 * i)]);
-    const int low = hex_digit(text[static_cast<std::size_t>(2 + 2 * i)]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int high = hex_digit(text[1 + 2 * i]);
+    const int low = hex_digit(text[2 + 2 * i]);
     if (high < 0 || low < 0) return std::nullopt;
     color.value[i] = (high * 16 + low) / 255.0;
   }
@@ -60,7 +60,7 @@ std::optional<Property::Rgb> hex_color(std::string_view text) {
 }
 
 Property::Rgb linear(const Property::Rgb& srgb) {
-  return {{linear_from_srgb(srgb.value.x), linear_from_srgb(srgb.value.y), linear_from_srgb(srgb.value.z)}};
+  return {{linear_from_srgb(srgb.value[0]), linear_from_srgb(srgb.value[1]), linear_from_srgb(srgb.value[2])}};
 }
 
 // Appends a sample; false if its wavelength is not one that may follow.
@@ -125,7 +125,7 @@ std::optional<Property::Rgb> read_rgb(const Literal& literal, HexColor hex, Diag
     return std::nullopt;
   }
   const auto value = read_vector(literal, diagnostics);
-  return value ? std::optional(Property::Rgb{*value}) : std::nullopt;
+  return value ? std::optional(Property::Rgb{to_array(*value)}) : std::nullopt;
 }
 
 std::optional<Property::Rgb> read_srgb(const Literal& literal, Diagnostics& diagnostics) {

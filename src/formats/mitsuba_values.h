@@ -50,7 +50,6 @@ inline constexpr std::string_view kLookatOfNumbers = "lookAt ox";
 /// for unit vectors makes of it, as in Mitsuba 3.
 enum class RotationAxis { direction, as_given };
 /// The matrix of one step.
-std::optional<Property::Transform> read_transform_step(const Element& step, RotationAxis axis,
-                                                       Diagnostics& diagnostics);
+std::optional<glm::dmat4> read_transform_step(const Element& step, RotationAxis axis, Diagnostics& diagnostics);
 
 }  // namespace norrsken

@@ -302,7 +302,8 @@ std::pair<std::vector<double>, std::string> matrix_of(const std::string& steps, 
                                     steps + "</transform></shape></scene>",
                                 {}, diagnostics);
   std::vector<double> elements;
-  const auto& matrix = std::get<Property::Transform>(scene.value().scene->children.at(0).node->properties.at(0).value);
+  const glm::dmat4 matrix =
+      to_glm(std::get<Property::Transform>(scene.value().scene->children.at(0).node->properties.at(0).value));
   for (int i = 0; i < 16; ++i) elements.push_back(matrix[i % 4][i / 4]);
   return {elements, to_text(diagnostics)};
 }

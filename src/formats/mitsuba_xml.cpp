@@ -37,10 +37,11 @@ bool contains(const std::vector<std::string>& words, std::string_view word) {
 
 class MitsubaReader {
  public:
-  MitsubaReader(const FileSystem& files, const std::vector<std::pair<std::string, std::string>>& parameters,
-                Diagnostics& diagnostics)
+  MitsubaReader(const FileSystem& files, const SceneParameters::Values& parameters,
+                const SceneParameters::Values& preferred, Diagnostics& diagnostics)
       : diagnostics_(diagnostics),
-        context_{files, diagnostics, SceneParameters(parameters, diagnostics), {}, {}, MitsubaUpgrade(diagnostics)},
+        context_{files, diagnostics, SceneParameters(parameters, preferred, diagnostics),
+                 {},    {},          MitsubaUpgrade(diagnostics)},
         references_(diagnostics) {}
 
   std::optional<Description> read(const std::string& path) {
@@ -59,7 +60,7 @@ class MitsubaReader {
     context_.upgrade.finish(*scene);
     context_.parameters.finish();
     return Description{std::move(scene), std::move(context_.search_paths), context_.parameters.values(),
-                       std::move(memory_), context_.upgrade.take_changes()};
+                       std::make_shared<MemoryReservation>(std::move(memory_)), context_.upgrade.take_changes()};
   }
 
  private:
@@ -344,8 +345,9 @@ class MitsubaReader {
 
 std::optional<Description> read_mitsuba_xml(const std::string& path, const FileSystem& files,
                                             const std::vector<std::pair<std::string, std::string>>& parameters,
-                                            Diagnostics& diagnostics) {
-  return MitsubaReader(files, parameters, diagnostics).read(path);
+                                            Diagnostics& diagnostics,
+                                            const std::vector<std::pair<std::string, std::string>>& preferred) {
+  return MitsubaReader(files, parameters, preferred, diagnostics).read(path);
 }
 
 }  // namespace norrsken

@@ -31,7 +31,8 @@ Value value_of(const Description& description, const std::string& name) {
 }
 
 glm::dvec3 apply(const std::string& steps, glm::dvec3 point) {
-  const auto matrix = value_of<Property::Transform>(read("<transform name=\"t\">" + steps + "</transform>"), "t");
+  const glm::dmat4 matrix =
+      to_glm(value_of<Property::Transform>(read("<transform name=\"t\">" + steps + "</transform>"), "t"));
   return glm::dvec3(matrix * glm::dvec4(point, 1));
 }
 
@@ -58,9 +59,9 @@ TEST(MitsubaXml, Values) {
   EXPECT_EQ(value_of<double>(scene, "whole"), 2) << "a float stays a float";
   EXPECT_EQ(value_of<std::string>(scene, "s"), "a < b & \xC3\xA5");
   EXPECT_EQ(value_of<std::string>(scene, "empty"), "");
-  EXPECT_EQ(value_of<Property::Vector>(scene, "p").value, glm::dvec3(1, 2, 3));
-  EXPECT_EQ(value_of<Property::Vector>(scene, "xyz").value, glm::dvec3(1, 2, 3));
-  EXPECT_EQ(value_of<Property::Vector>(scene, "v").value, glm::dvec3(4));
+  EXPECT_EQ(to_glm(value_of<Property::Vector>(scene, "p").value), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(to_glm(value_of<Property::Vector>(scene, "xyz").value), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(to_glm(value_of<Property::Vector>(scene, "v").value), glm::dvec3(4));
 }
 
 TEST(MitsubaXml, ColorsAndSpectra) {
@@ -72,9 +73,9 @@ TEST(MitsubaXml, ColorsAndSpectra) {
     <spectrum name="pairs" value="400:0.1, 500:.2 600:3e-1"/>
     <spectrum name="file" filename="data/measured.spd"/>)",
                                  {}, {{"data/measured.spd", "# nm value\r\n\n400 0.5 # first\n  500\t0.75"}});
-  EXPECT_EQ(value_of<Property::Rgb>(scene, "rgb").value, glm::dvec3(0.1, 0.2, 0.3));
-  EXPECT_EQ(value_of<Property::Rgb>(scene, "grey").value, glm::dvec3(0.5));
-  expect_near(value_of<Property::Rgb>(scene, "hex").value, {1, 0.21586050011389926, 0});  // sRGB, decoded
+  EXPECT_EQ(to_glm(value_of<Property::Rgb>(scene, "rgb").value), glm::dvec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(to_glm(value_of<Property::Rgb>(scene, "grey").value), glm::dvec3(0.5));
+  expect_near(to_glm(value_of<Property::Rgb>(scene, "hex").value), {1, 0.21586050011389926, 0});  // sRGB, decoded
   using Samples = std::vector<std::pair<double, double>>;
   EXPECT_EQ(value_of<Property::Spectrum>(scene, "constant").samples, (Samples{{0, 0.25}}));
   EXPECT_EQ(value_of<Property::Spectrum>(scene, "pairs").samples, (Samples{{400, 0.1}, {500, 0.2}, {600, 0.3}}));

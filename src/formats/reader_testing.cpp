@@ -7,34 +7,37 @@
 namespace norrsken {
 namespace {
 
-std::string text_of(const Property& property) {
-  struct Visitor {
-    std::string operator()(bool value) const { return value ? "true" : "false"; }
-    std::string operator()(std::int64_t value) const { return std::to_string(value); }
-    std::string operator()(double value) const { return fmt::format("{:.9g}", value); }
-    std::string operator()(const std::string& value) const { return value; }
-    std::string operator()(const Property::Rgb& rgb) const {
-      return fmt::format("rgb {:.6g} {:.6g} {:.6g}", rgb.value.x, rgb.value.y, rgb.value.z);
+struct Visitor {
+  std::string operator()(bool value) const { return value ? "true" : "false"; }
+  std::string operator()(std::int64_t value) const { return std::to_string(value); }
+  std::string operator()(double value) const { return fmt::format("{:.9g}", value); }
+  std::string operator()(const std::string& value) const { return value; }
+  std::string operator()(const Property::Rgb& rgb) const {
+    return fmt::format("rgb {:.6g} {:.6g} {:.6g}", rgb.value[0], rgb.value[1], rgb.value[2]);
+  }
+  std::string operator()(const Property::Spectrum& spectrum) const {
+    std::string text = "spectrum";
+    for (const auto& [wavelength, value] : spectrum.samples) text += fmt::format(" {:g}:{:.6g}", wavelength, value);
+    return text;
+  }
+  std::string operator()(const Property::Vector& v) const {
+    return fmt::format("{:g} {:g} {:g}", v.value[0], v.value[1], v.value[2]);
+  }
+  std::string operator()(const Property::Transform& m) const {
+    std::string text = "matrix";
+    for (const auto& row : m.rows) {
+      // Adding 0 takes the sign from zeros.
+      for (const double element : row) text += fmt::format(" {:.6g}", element + 0.0);
     }
-    std::string operator()(const Property::Spectrum& spectrum) const {
-      std::string text = "spectrum";
-      for (const auto& [wavelength, value] : spectrum.samples) text += fmt::format(" {:g}:{:.6g}", wavelength, value);
-      return text;
-    }
-    std::string operator()(const Property::Vector& v) const {
-      return fmt::format("{:g} {:g} {:g}", v.value.x, v.value.y, v.value.z);
-    }
-    std::string operator()(const Property::Transform& m) const {
-      std::string text = "matrix";
-      for (int row = 0; row < 4; ++row) {
-        // Adding 0 takes the sign from zeros.
-        for (int column = 0; column < 4; ++column) text += fmt::format(" {:.6g}", m[column][row] + 0.0);
-      }
-      return text;
-    }
-  };
-  return property.name + " = " + std::visit(Visitor{}, property.value);
-}
+    return text;
+  }
+  template <class Shared>
+  std::string operator()(const std::shared_ptr<const Shared>&) const {
+    return "an array";  // no file has one
+  }
+};
+
+std::string text_of(const Property& property) { return property.name + " = " + std::visit(Visitor{}, property.value); }
 
 std::string text_of(const Node& node, const std::string& name, const std::string& indent) {
   std::string text = fmt::format("{}{} {} '{}'\n", indent, node.kind, node.plugin, name);

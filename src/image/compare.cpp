@@ -149,24 +149,25 @@ double psnr(const DisplayImage& a, const DisplayImage& b) {
 
 }  // namespace
 
-IoStatus compare(const Image& a, const Image& b, const CompareOptions& options, Comparison& result, Image* difference) {
+Result<Comparison> compare(const Image& a, const Image& b, const CompareOptions& options) {
+  using Failed = Result<Comparison>;
   if (a.width != b.width || a.height != b.height) {
-    return {"the images differ in size: " + size_text(a) + " and " + size_text(b)};
+    return Failed::failure("the images differ in size: " + size_text(a) + " and " + size_text(b));
   }
-  if (a.width < 1 || a.height < 1) return {"the images are empty"};
+  if (a.width < 1 || a.height < 1) return Failed::failure("the images are empty");
   if (!(options.pixels_per_degree >= 1 && options.pixels_per_degree <= 1000)) {
-    return {"pixels per degree: accepted are 1 to 1000"};
+    return Failed::failure("pixels per degree: accepted are 1 to 1000");
   }
   MemoryReservation working;
   try {
     const auto pixels = static_cast<std::uint64_t>(a.width) * static_cast<std::uint64_t>(a.height);
     working = MemoryReservation(pixels * kBytesPerPixel, options.memory);
   } catch (const MemoryExceeded& e) {
-    return {std::string("comparing does not fit into memory: ") + e.what()};
+    return Failed::failure(std::string("comparing does not fit into memory: ") + e.what());
   }
   Picture picture_a, picture_b;
-  if (IoStatus status = find_colors(a, "the first", picture_a); !status) return status;
-  if (IoStatus status = find_colors(b, "the second", picture_b); !status) return status;
+  if (IoStatus status = find_colors(a, "the first", picture_a); !status) return Failed::failure(status.error);
+  if (IoStatus status = find_colors(b, "the second", picture_b); !status) return Failed::failure(status.error);
   if (picture_a.is_luminance || picture_b.is_luminance) {
     reduce_to_luminance(picture_a);
     reduce_to_luminance(picture_b);
@@ -190,8 +191,8 @@ IoStatus compare(const Image& a, const Image& b, const CompareOptions& options, 
   }
   comparison.z_test = z_test(a.width, planes_a, planes_b, picture_a.variances, picture_b.variances);
 
-  if (difference != nullptr) {
-    Image image;
+  if (options.difference) {
+    Image& image = comparison.difference;
     image.width = a.width;
     image.height = a.height;
     for (int c = 0; c < 3; ++c) {
@@ -199,10 +200,8 @@ IoStatus compare(const Image& a, const Image& b, const CompareOptions& options, 
                              [](float x, float y) { return static_cast<float>(std::abs(difference_of(x, y))); });
     }
     image.channel("flip").values = std::move(flip);
-    *difference = std::move(image);
   }
-  result = comparison;
-  return {};
+  return comparison;
 }
 
 }  // namespace norrsken

@@ -86,6 +86,12 @@ IoStatus read_image(const std::string& path, Image& image, std::uint64_t most_by
   return error.empty() ? IoStatus{} : failure(path, error);
 }
 
+Result<Image> read_image(const std::string& path, const std::shared_ptr<MemoryBudget>& memory) {
+  Image image;
+  const IoStatus status = read_image(path, image, (memory ? memory : MemoryBudget::of_machine())->left());
+  return status ? Result<Image>(std::move(image)) : Result<Image>::failure(status.error);
+}
+
 std::string read_texels(std::string_view contents, TexelImage& image) try {
   TexelImage read;
   std::string error = is_exr(contents)            ? read_exr_texels(contents, read)

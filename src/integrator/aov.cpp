@@ -81,7 +81,7 @@ IntegratorSettings compile_integrator_aov(Parameters& p, Builder& builder) {
 
   const std::string aovs = p.text("aovs", "");
   std::string_view rest = aovs;
-  if (trim(rest).empty())
+  if (p.require("aovs", "<string name=\"aovs\" value=\"NAME:TYPE,...\"/>") && trim(rest).empty())
     p.error("aovs", "integrator 'aov' names no layers", "<string name=\"aovs\" value=\"NAME:TYPE,...\"/>");
   while (!trim(rest).empty()) {
     const std::size_t comma = std::min(rest.find(','), rest.size());

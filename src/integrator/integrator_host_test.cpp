@@ -140,8 +140,8 @@ TEST(IntegratorHost, AovRefusesWhatItDoesNotKnow) {
               ElementsAre("error: 'aovs' has 'depth' in it [pairs such as position:position, normal:sh_normal]"));
   EXPECT_THAT(messages(aovs("n:position,n:sh_normal")),
               ElementsAre("error: 'aovs' has two layers 'n.X' [a name of its own for each]"));
-  EXPECT_THAT(messages(""),
-              ElementsAre("error: integrator 'aov' names no layers [<string name=\"aovs\" value=\"NAME:TYPE,...\"/>]"));
+  EXPECT_THAT(messages(""), ElementsAre("error: integrator 'aov' needs a parameter 'aovs' "
+                                        "[<string name=\"aovs\" value=\"NAME:TYPE,...\"/>]"));
   EXPECT_THAT(messages(integer("aovs", "2")), ElementsAre("error: 'aovs' is an integer [string]",
                                                           "error: integrator 'aov' names no layers "
                                                           "[<string name=\"aovs\" value=\"NAME:TYPE,...\"/>]"));

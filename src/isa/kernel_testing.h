@@ -33,9 +33,8 @@ struct ViewedScene {
 
 inline std::unique_ptr<ViewedScene> view_scene(const std::string& name, AccelKind kind,
                                                const LoadOptions& options = {}) {
-  Diagnostics diagnostics;
-  std::optional<Scene> scene = Scene::load(name, options, diagnostics);
-  for (const Diagnostic& d : diagnostics.all()) ADD_FAILURE() << to_text(d);
+  const Result<Scene> scene = Scene::load(name, options);
+  for (const Diagnostic& d : scene.diagnostics().all()) ADD_FAILURE() << to_text(d);
   return scene ? std::make_unique<ViewedScene>(*scene, kind) : nullptr;
 }
 

@@ -101,7 +101,7 @@ std::array<Texcoord, 3> texcoords_of(const SceneTables& tables, std::size_t tria
 }
 
 /// A shape's triangles, and what the texture of their radiance needs.
-struct Mesh {
+struct FlatMesh {
   Array<Corners> triangles;
   Array<std::array<Texcoord, 3>> texcoords;
   std::uint32_t first_primitive, shape;
@@ -112,7 +112,7 @@ struct Mesh {
 
 /// What FlatAreaLight's texture and normals ask for: see src/light/flat_area.h. `apex` is the corner that the light
 /// begins with.
-std::uint32_t add_parameters(Builder& builder, const Mesh& mesh, std::size_t triangle, std::size_t apex) {
+std::uint32_t add_parameters(Builder& builder, const FlatMesh& mesh, std::size_t triangle, std::size_t apex) {
   const auto& uv = mesh.texcoords[triangle];
   const Texcoord &origin = uv[apex], &left = uv[(apex + 1) % 3], &right = uv[(apex + 2) % 3];
   ParameterBlock block;
@@ -124,7 +124,7 @@ std::uint32_t add_parameters(Builder& builder, const Mesh& mesh, std::size_t tri
 
 /// Whether the texture coordinates of two triangles that make a parallelogram are one map of it: `apex` is the first's
 /// corner off their common edge, `opposite` the second's.
-bool is_one_map(const Mesh& mesh, std::size_t first, std::size_t apex, std::size_t second, std::size_t opposite) {
+bool is_one_map(const FlatMesh& mesh, std::size_t first, std::size_t apex, std::size_t second, std::size_t opposite) {
   if (mesh.texture == 0) return true;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto first_uv = [&](std::size_t k) { return mesh.texcoords[first][(apex + k) % 3][i]; };
@@ -138,7 +138,7 @@ bool is_one_map(const Mesh& mesh, std::size_t first, std::size_t apex, std::size
   return true;
 }
 
-std::vector<AreaLight> flat_lights(Builder& builder, const Mesh& mesh) {
+std::vector<AreaLight> flat_lights(Builder& builder, const FlatMesh& mesh) {
   std::span<const Corners> triangles = mesh.triangles;
   // Three nodes of the tree of edges for each triangle, and the light's record with its list of primitives.
   constexpr std::size_t kNodeBytes = sizeof(std::pair<const Edge, std::uint32_t>) + 6 * sizeof(void*);
@@ -232,7 +232,7 @@ std::vector<AreaLight> analytic_lights(Builder& builder, std::span<const Surface
 }  // namespace
 
 void refuse_as_beginning(const AreaLight& light, const Parameters& emitter, Builder& builder) {
-  if (light.sampled || !builder.tables().integrator.from_lights) return;
+  if (light.sampled || !builder.paths_begin_at_lights()) return;
   builder.diagnostics().error(
       emitter.node().plugin_location,
       "paths cannot begin at the shape around this emitter, whose surface has no way to be sampled, as those of "
@@ -255,7 +255,7 @@ std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, Textur
     return lights;
   }
   const bool smooth = along_normals && record.smooth != 0, has_texcoords = record.has_texcoords != 0;
-  Mesh mesh{{}, {}, record.first_primitive, shape, texture, smooth, !smooth};
+  FlatMesh mesh{{}, {}, record.first_primitive, shape, texture, smooth, !smooth};
   // Attributes belong to triangles, and so do coordinates that are barycentric.
   if (texture != 0) mesh.merge = mesh.merge && has_texcoords && texture_kind(texture) != TextureKind::mesh_attribute;
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {

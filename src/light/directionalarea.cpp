@@ -38,7 +38,7 @@ void compile_emitter_directionalarea(Parameters& p, Builder& builder, std::uint3
                                 "a directionalarea emitter inside of the shape that shines");
     return;
   }
-  const bool found = builder.tables().integrator.from_lights;
+  const bool found = builder.paths_begin_at_lights();
   if (!found) {
     builder.diagnostics().warning(p.node().plugin_location,
                                   "the light of emitter 'directionalarea' cannot be found by paths from the camera: it "

@@ -1,7 +1,8 @@
 // envmap: an image in latitude-longitude format around the scene.
 //
 // Parameters
-//   filename          string (required): PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR, at least 2 x 3 pixels
+//   filename          string (required): PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR, at least 2 x 3 pixels.
+//                     Programs may give an `image` in its place
 //   scale             number, at least 0 (default 1): factor on the image's radiance
 //   to_world          transform that keeps shapes (default identity). The local y axis is up, where the image's first
 //                     row is; its first and last column are at -z, its middle one is at +z, and columns to
@@ -138,17 +139,15 @@ glm::dvec3 write_map(const StoredImage& image, bool compensate, SceneTables& tab
 
 void compile_emitter_envmap(Parameters& p, Builder& builder, std::uint32_t shape) {
   refuse_shape(p, shape, "surrounds the scene");
-  const std::string filename = p.file("filename");
   const double scale = p.number("scale", 1, 0, kMaxEmission);
   const glm::dmat4 to_world = p.transform("to_world");
-  const bool compensate = p.boolean("mis_compensation", false) && builder.tables().integrator.finds_lights();
+  const bool compensate = p.boolean("mis_compensation", false) && builder.paths_find_lights();
   glm::dmat3 axes(to_world);
   axes /= glm::length(axes[0]);
   if (!keeps_lengths(axes)) {
     p.error("to_world", "'to_world' of emitter 'envmap' distorts", "translations, rotations and scales with one value");
   }
-  if (filename.empty()) return;
-  const std::optional<StoredImage> image = builder.images().load(filename, false, p.where("filename"));
+  const std::optional<StoredImage> image = builder.images().of(p, /*raw=*/false);
   if (!image) return;
   const std::size_t pixels = std::size_t{image->width} * image->height;
   if (image->width < 2 || image->height < 3) {

@@ -268,7 +268,7 @@ TEST(LightTree, LightsInOnePlaceShareByIntensity) {
   for (std::uint32_t i = 0; i < 9; ++i) EXPECT_NEAR(same.prob(i, {0, 0, 0}), weight(i + 1, 45, 9), 1e-5);
 }
 
-TEST(LightTree, IsWorthItForManyLightsAndPathsFromTheCamera) {
+TEST(LightTree, IsWorthItForManyLights) {
   const auto nodes = [](std::size_t lights, const std::string& integrator) {
     std::string elements = integrator;
     for (std::size_t i = 0; i < lights; ++i) elements += R"(<emitter type="point"/>)";
@@ -276,7 +276,8 @@ TEST(LightTree, IsWorthItForManyLightsAndPathsFromTheCamera) {
   };
   EXPECT_EQ(nodes(kLightTreeFrom - 1, ""), 0u);
   EXPECT_EQ(nodes(kLightTreeFrom, ""), 2 * kLightTreeFrom - 1);
-  EXPECT_EQ(nodes(kLightTreeFrom, R"(<integrator type="ptracer"/>)"), 0u);
+  EXPECT_EQ(nodes(kLightTreeFrom, R"(<integrator type="ptracer"/>)"), 2 * kLightTreeFrom - 1)
+      << "whatever the integrator: the scene may be looked at with another one";
 }
 
 void expect_bounds(const LightNode& node, const LightNode& leaf) {

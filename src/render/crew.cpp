@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -69,6 +68,12 @@ class Gathering {
   std::vector<std::thread> threads_;
 };
 
+FilmRegion intersection(const FilmRegion& a, const FilmRegion& b) {
+  const std::uint32_t x0 = std::max(a.x0, b.x0), y0 = std::max(a.y0, b.y0);
+  const std::uint32_t x1 = std::min(a.x0 + a.width, b.x0 + b.width), y1 = std::min(a.y0 + a.height, b.y0 + b.height);
+  return {x0, y0, x1 > x0 ? x1 - x0 : 0, y1 > y0 ? y1 - y0 : 0};
+}
+
 }  // namespace
 
 int crew_size(int asked) {
@@ -106,6 +111,10 @@ struct Crew::Area {
   std::uint64_t next_block = 0;
   std::uint64_t blocks_before = 0;  ///< those on the film when the pass began
   FilmRegion region;
+  // Of paths from the lights, whose waves come to the film in parts: a part of one is there; and who wants to look waits for
+  // the rest of it, and then the next one for him.
+  bool in_wave = false;
+  int looking = 0;
 };
 
 Crew::Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, Work& work, int threads,
@@ -129,23 +138,32 @@ TileGrid Crew::grid(const SceneView& scene, std::uint32_t width, std::uint32_t h
   return TileGrid(width, height, slots_per_wave(scene.integrator));
 }
 
-void Crew::run_features(const Tick& tick) {
+bool Crew::run_features(const Tick& tick) {
   const TileProgress& progress = work_.feature_progress;
   const WorkPlan::Cut cut = cut_for(work_.grid, work_.feature_samples, progress, progress);
-  for (const WorkPlan& plan : plan_passes(work_.grid, work_.feature_samples, cut)) {
-    if (!run_pass(Pass::features, plan, tick)) return;
-  }
+  return run_passes(Pass::features, plan_passes(work_.grid, work_.feature_samples, cut), tick);
 }
 
-void Crew::run(const Tick& tick) {
+bool Crew::run(const Tick& tick) {
   const Pass pass = scene_.integrator.from_lights ? Pass::particles : Pass::radiance;
   const WorkPlan::Cut cut = cut_for(work_.grid, work_.samples, work_.goal.of_tile, work_.progress);
-  for (const WorkPlan& plan : plan_passes(work_.grid, work_.samples, cut)) {
-    if (!run_pass(pass, plan, tick)) return;
+  return run_passes(pass, plan_passes(work_.grid, work_.samples, cut), tick);
+}
+
+bool Crew::run_passes(Pass pass, const std::vector<WorkPlan>& plans, const Tick& tick) {
+  for (const WorkPlan& plan : plans) {
+    const End end = run_pass(pass, plan, tick);
+    if (end != End::whole) return end != End::no_threads;
+    if (!tick.call()) return true;
   }
+  return true;
 }
 
 void Crew::start_areas(Pass pass, const WorkPlan& plan) {
+  areas_wanted_ = true;
+  const std::lock_guard lock(areas_mutex_);
+  areas_wanted_ = false;
+  ++areas_generation_;
   const TileProgress& progress = pass == Pass::features ? work_.feature_progress : work_.progress;
   area_count_ = pass == Pass::particles ? 1 : plan.area_count();
   areas_ = std::make_unique<Area[]>(area_count_);
@@ -164,10 +182,10 @@ void Crew::start_areas(Pass pass, const WorkPlan& plan) {
   areas_[0].next_block = first_wave_;
 }
 
-bool Crew::run_pass(Pass pass, const WorkPlan& plan, const Tick& tick) {
+Crew::End Crew::run_pass(Pass pass, const WorkPlan& plan, const Tick& tick) {
   start_areas(pass, plan);
   const std::uint64_t waves = plan.wave_count() - first_wave_;
-  if (waves == 0) return true;
+  if (waves == 0) return End::whole;
   const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(threads_), waves));
   // All memory before the first thread: what runs in the threads cannot fail.
   arenas_.reserve(wanted);
@@ -178,12 +196,12 @@ bool Crew::run_pass(Pass pass, const WorkPlan& plan, const Tick& tick) {
     WaveMemory& memory = arenas_[i].memory();
     if (!gathering.start([this, pass, &plan, &next_wave, &memory] { work(pass, plan, next_wave, memory); })) break;
   }
-  if (gathering.size() == 0) throw std::runtime_error("the system starts no more threads");
+  if (gathering.size() == 0) return End::no_threads;
   threads_used_ = std::max(threads_used_, gathering.size());
   while (!gathering.wait_for(tick.interval)) {
-    if (!tick.call()) return false;  // the gathering stops
+    if (!tick.call()) return End::stopped;  // the gathering stops
   }
-  return !cancelled_.load(std::memory_order_relaxed);
+  return cancelled_.load(std::memory_order_relaxed) ? End::stopped : End::whole;
 }
 
 void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave, WaveMemory& memory) {
@@ -252,7 +270,8 @@ void Crew::trace_particles(const WorkPlan& plan, std::uint64_t wave, const WaveJ
     const bool is_done = job.sample_count == 0;
     hit_number = is_done ? 0 : kernels_.trace_particles(scene_, job, hit_number, memory, counts);
     std::unique_lock lock(film.mutex);
-    film.turn.wait(lock, [&] { return film.next_block == wave; });
+    film.turn.wait(lock, [&] { return film.next_block == wave && (film.in_wave || film.looking == 0); });
+    film.in_wave = hit_number != 0;
     if (!is_done) film_.splats().add(job, memory.splats, dropped);
     if (hit_number != 0) continue;
     if (!is_done) {
@@ -271,6 +290,49 @@ void Crew::count_samples(const WaveJob& job, const DroppedSamples& dropped) {
   if (dropped.count == 0) return;
   const std::lock_guard lock(mutex_);
   work_.dropped.add(dropped);
+}
+
+void Crew::look_at_area(Area& area, const FilmRegion& part, const std::function<void(const FilmRegion&)>& look) {
+  // Large areas row by row, so that whoever wants to write there gets in between.
+  constexpr std::uint32_t kPixelsAtOnce = 1u << 14;
+  const std::uint32_t rows = std::max(kPixelsAtOnce / std::max(part.width, 1u), 1u);
+  for (std::uint32_t y = 0; y < part.height; y += rows) {
+    std::unique_lock lock(area.mutex);
+    ++area.looking;
+    area.turn.wait(lock, [&] { return !area.in_wave; });
+    look({part.x0, part.y0 + y, part.width, std::min(rows, part.height - y)});
+    --area.looking;
+    area.turn.notify_all();
+  }
+}
+
+void Crew::look_at(const FilmRegion& region, const std::function<void(const FilmRegion&)>& look) {
+  // A new pass divides the film anew: then it is looked at from the start. Where that goes on, the pass waits.
+  constexpr int kMostAttempts = 4;
+  for (int attempt = 1;; ++attempt) {
+    std::unique_lock lock(areas_mutex_);
+    if (area_count_ == 0) return look(region);
+    const std::uint64_t generation = areas_generation_;
+    for (std::uint64_t i = 0; i < area_count_ && generation == areas_generation_; ++i) {
+      const FilmRegion part = intersection(areas_[i].region, region);
+      if (part.width == 0 || part.height == 0) continue;
+      look_at_area(areas_[i], part, look);
+      if (attempt == kMostAttempts) continue;
+      lock.unlock();
+      while (areas_wanted_) std::this_thread::yield();
+      lock.lock();
+    }
+    if (generation == areas_generation_) return;
+  }
+}
+
+std::uint32_t Crew::least_samples() {
+  std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+  const auto look = [&](const FilmRegion& part) {
+    work_.grid.for_each_tile(part, [&](std::uint64_t tile) { least = std::min(least, work_.progress[tile]); });
+  };
+  look_at({0, 0, film_.width(), film_.height()}, look);
+  return least;
 }
 
 RelativeError Crew::relative_error() {

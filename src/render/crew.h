@@ -57,10 +57,16 @@ class Crew {
   static TileGrid grid(const SceneView& scene, std::uint32_t width, std::uint32_t height);
 
   /// Go on with the work: the features, or the image. They call `tick` from the calling thread once in each
-  /// interval, and return with what is on the film when the work is done, when it is cancelled, or when `tick` returns
-  /// false; then they may be called again.
-  void run_features(const Tick& tick);
-  void run(const Tick& tick);
+  /// interval and after each pass, and return with what is on the film when the work is done, when it is cancelled, or
+  /// when `tick` returns false; then they may be called again. False if the system has not one thread for them.
+  bool run_features(const Tick& tick);
+  bool run(const Tick& tick);
+
+  /// Calls `look` with parts that make up the region, each while nobody writes to it and no pixel has a part of a sample.
+  /// Any thread may look, at any time. Of the workers only one who wants to write to a part waits while it is looked at.
+  void look_at(const FilmRegion& region, const std::function<void(const FilmRegion&)>& look);
+  /// The fewest that any pixel has on the film; asked by the thread that runs.
+  std::uint32_t least_samples();
 
   std::uint64_t samples_done() const { return samples_done_.load(std::memory_order_relaxed); }
   /// Of what is on the film, looked at about once a second; -1 while unknown.
@@ -72,9 +78,11 @@ class Crew {
   struct Area;
   enum class Pass { radiance, features, particles };
 
-  /// False if it was stopped.
-  bool run_pass(Pass pass, const WorkPlan& plan, const Tick& tick);
+  enum class End { whole, stopped, no_threads };
+  End run_pass(Pass pass, const WorkPlan& plan, const Tick& tick);
+  bool run_passes(Pass pass, const std::vector<WorkPlan>& plans, const Tick& tick);
   void start_areas(Pass pass, const WorkPlan& plan);
+  void look_at_area(Area& area, const FilmRegion& part, const std::function<void(const FilmRegion&)>& look);
   void work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave, WaveMemory& memory);
   void add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, const WaveJob& job, WaveMemory& memory);
   void trace_particles(const WorkPlan& plan, std::uint64_t wave, const WaveJob& job, WaveMemory& memory,
@@ -93,6 +101,9 @@ class Crew {
   std::atomic<bool> stop_{false};  ///< set while leaving a pass before its end
 
   std::vector<WaveArena> arenas_;
+  std::mutex areas_mutex_;  ///< of those who look, and of the running thread while it changes what follows
+  std::atomic<bool> areas_wanted_{false};  ///< it waits for that
+  std::uint64_t areas_generation_ = 0;
   std::unique_ptr<Area[]> areas_;
   std::uint64_t area_count_ = 0;
   std::uint64_t first_wave_ = 0;  ///< of the pass; those before are on the film

@@ -8,17 +8,17 @@
 
 namespace norrsken {
 
-std::optional<MemoryReservation> reserve_frame(const LoadedScene& scene, const FilmSettings& film,
-                                               const SceneLayers& layers, int threads, Diagnostics& diagnostics) {
-  const SceneTables& tables = scene.tables;
-  const bool from_lights = tables.integrator.from_lights;
+std::optional<MemoryReservation> reserve_frame(const LoadedScene& scene, const SceneFrame& frame_of_scene,
+                                               const FilmSettings& film, const SceneLayers& layers, int threads,
+                                               Diagnostics& diagnostics) {
+  const bool from_lights = frame_of_scene.integrator.from_lights;
   const auto pixels = static_cast<std::uint64_t>(std::int64_t{film.width} * film.height);
   const MemoryScope scope(scene.memory);
   MemoryReservation frame(0);
   try {
     within_memory({}, fmt::format("a film of {} x {} pixels with its image", film.width, film.height), diagnostics,
                   [&] {
-                    frame.grow(pixels * (film_bytes_per_pixel(film, tables.sampler.kind, layers, from_lights) +
+                    frame.grow(pixels * (film_bytes_per_pixel(film, frame_of_scene.sampler.kind, layers, from_lights) +
                                          image_bytes_per_pixel(film, layers)));
                   });
     within_memory({}, fmt::format("what {} thread{} work on", threads, threads == 1 ? "" : "s"), diagnostics,
@@ -27,21 +27,6 @@ std::optional<MemoryReservation> reserve_frame(const LoadedScene& scene, const F
     return std::nullopt;
   }
   return frame;
-}
-
-std::unique_ptr<const Accel> build_accel(const LoadedScene& scene, AccelKind kind, int threads,
-                                         Diagnostics& diagnostics) {
-  const MemoryScope scope(scene.memory);
-  SourceLocation whole_file;
-  whole_file.file = scene.file;
-  std::unique_ptr<const Accel> accel;
-  try {
-    within_memory(whole_file, "the scene's acceleration structure", diagnostics,
-                  [&] { accel = std::make_unique<const Accel>(scene.tables, kind, threads); });
-  } catch (const LoadingStopped&) {
-    // It has been said why.
-  }
-  return accel;
 }
 
 }  // namespace norrsken

@@ -141,13 +141,15 @@ std::string complaint_about(const Part& first, const Part& second) {
 
 }  // namespace
 
-IoStatus merge_renders(const std::vector<std::string>& files, bool layers, MergedRender& result,
-                       std::shared_ptr<MemoryBudget> memory) {
-  if (files.empty()) return {"there is nothing to merge"};
+Result<MergedRender> merge_renders(const std::vector<std::string>& files, bool layers,
+                                   std::shared_ptr<MemoryBudget> memory) {
+  using Failed = Result<MergedRender>;
+  if (files.empty()) return Failed::failure("there is nothing to merge");
   std::vector<Part> parts;
   for (const std::string& file : files) {
     parts.push_back({file, std::make_unique<RenderReader>(file)});
-    if (std::string complaint = complaint_about(parts.back()); !complaint.empty()) return {std::move(complaint)};
+    if (std::string complaint = complaint_about(parts.back()); !complaint.empty())
+      return Failed::failure(std::move(complaint));
   }
   std::ranges::stable_sort(parts, {}, [](const Part& part) { return part.stored().samples.first; });
 
@@ -158,7 +160,7 @@ IoStatus merge_renders(const std::vector<std::string>& files, bool layers, Merge
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (i > 0) {
       if (std::string complaint = complaint_about(parts[i - 1], parts[i]); !complaint.empty()) {
-        return {std::move(complaint)};
+        return Failed::failure(std::move(complaint));
       }
     }
     const StoredRender& stored = parts[i].stored();
@@ -180,12 +182,12 @@ IoStatus merge_renders(const std::vector<std::string>& files, bool layers, Merge
   try {
     films = MemoryReservation(merging_bytes(form), memory ? std::move(memory) : MemoryBudget::of_machine());
   } catch (const MemoryExceeded& e) {
-    return {fmt::format("films of {} x {} pixels do not fit into memory: {}", form.settings.width, form.settings.height,
-                        e.what())};
+    return Failed::failure(fmt::format("films of {} x {} pixels do not fit into memory: {}", form.settings.width,
+                                       form.settings.height, e.what()));
   }
   Film film = make_film(parts.front().stored().form), part_of_film = make_film(parts.front().stored().form);
   for (const Part& part : parts) {
-    if (!part.reader->read_film(part_of_film)) return {part.name() + " " + part.reader->complaint()};
+    if (!part.reader->read_film(part_of_film)) return Failed::failure(part.name() + " " + part.reader->complaint());
     film.add(part_of_film);
   }
   film.set_samples(sample_set(parts));
@@ -195,8 +197,7 @@ IoStatus merge_renders(const std::vector<std::string>& files, bool layers, Merge
   merged.image.metadata =
       metadata_of(made, {merged.samples_per_pixel, is_whole ? merged.samples : std::vector<SampleRange>{}, merged.error,
                          merged.dropped_samples, !is_whole});
-  result = std::move(merged);
-  return {};
+  return merged;
 }
 
 bool is_checkpoint(const std::string& path) {

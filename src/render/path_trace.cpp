@@ -9,7 +9,7 @@
 #include "compile/compile.h"
 #include "isa/entry.h"
 #include "render/crew.h"
-#include "render/frame_memory.h"
+#include "render/scene_state.h"
 #include "render/scene_view.h"
 #include "render/wave_arena.h"
 
@@ -146,25 +146,26 @@ class PathObserver {
 
 }  // namespace
 
-std::optional<PathTrace> trace_path(const Scene& scene, const RenderOptions& options, int x, int y,
-                                    std::uint32_t sample, Diagnostics& diagnostics) {
+Result<PathTrace> trace_path(const Scene& scene, const RenderOptions& options, int x, int y, std::uint32_t sample) {
+  Diagnostics diagnostics(options.log);
   const SceneTables& tables = scene.tables().tables;
+  const SceneFrame& frame = scene.frame();
   const KernelEntry* kernels = choose_kernels(options.isa, diagnostics);
   const AccelKind accel_kind =
       choose_accel(options.accelerator, tables, kernels != nullptr ? kernels->lanes : 1, false, diagnostics);
-  if (x < 0 || y < 0 || x >= tables.film.width || y >= tables.film.height) {
+  if (x < 0 || y < 0 || x >= frame.film.width || y >= frame.film.height) {
     diagnostics.error({}, fmt::format("there is no pixel {}, {}", x, y),
-                      fmt::format("0, 0 to {}, {}", tables.film.width - 1, tables.film.height - 1));
+                      fmt::format("0, 0 to {}, {}", frame.film.width - 1, frame.film.height - 1));
   }
-  if (tables.integrator.from_lights) {
+  if (frame.integrator.from_lights) {
     diagnostics.error({}, "the paths of integrator 'ptracer' begin at the lights and belong to no pixel",
                       "another integrator");
   }
-  if (diagnostics.has_errors()) return std::nullopt;
+  if (diagnostics.has_errors()) return diagnostics;
 
-  const auto accel = build_accel(scene.tables(), accel_kind, crew_size(options.threads), diagnostics);
-  if (!accel) return std::nullopt;
-  SceneView view = make_scene_view(tables, accel->view());
+  const auto accel = scene.state().accel(accel_kind, frame.layers, crew_size(options.threads), diagnostics);
+  if (!accel) return diagnostics;
+  SceneView view = scene.state().view(frame, accel->view());
   view.sampler.seed += options.seed;
   WaveArena arena(kMaxLanes);
   WaveMemory& memory = arena.memory();
@@ -178,7 +179,7 @@ std::optional<PathTrace> trace_path(const Scene& scene, const RenderOptions& opt
   for (PathVertex& v : trace.vertices) {
     if (v.hit && v.shape < ids.size()) v.shape_id = ids[v.shape];
   }
-  return trace;
+  return {std::move(trace), std::move(diagnostics)};
 }
 
 }  // namespace norrsken

@@ -38,22 +38,24 @@ std::string date_text(std::time_t seconds) {
 Metadata settings_of(const Scene& scene, const RenderOptions& options, const std::string& isa,
                      const std::string& accelerator) {
   const SceneInfo& info = scene.tables().info;
+  const SceneFrame& frame = scene.frame();
   std::string parameters;
   for (const auto& [name, value] : info.parameters)
     parameters += fmt::format("{}{}={}", parameters.empty() ? "" : " ", name, value);
   Metadata settings = {{"Software", "norrsken " NORRSKEN_VERSION},
                        {"norrsken.scene", scene.tables().file},
                        {"norrsken.scene_hash", info.hash},
-                       {"norrsken.sensor", fmt::format("{} {}", info.sensor, info.sensor_id)},
-                       {"norrsken.integrator", info.integrator},
-                       {"norrsken.max_depth", fmt::to_string(info.max_depth)},
-                       {"norrsken.rr_depth", fmt::to_string(info.rr_depth)},
-                       {"norrsken.emitter_samples", fmt::to_string(info.emitter_samples)},
-                       {"norrsken.sampler", info.sampler},
+                       {"norrsken.sensor", fmt::format("{} {}", frame.sensor, frame.sensor_id)},
+                       {"norrsken.integrator", frame.integrator_name},
+                       {"norrsken.max_depth", fmt::to_string(frame.integrator.max_depth)},
+                       {"norrsken.rr_depth", fmt::to_string(frame.integrator.rr_depth)},
+                       {"norrsken.emitter_samples", fmt::to_string(frame.integrator.emitter_samples)},
+                       {"norrsken.sampler", frame.sampler_name},
                        {"norrsken.seed", fmt::to_string(options.seed)},
                        {"norrsken.isa", isa},
                        {"norrsken.accelerator", accelerator}};
   if (!parameters.empty()) settings["norrsken.parameters"] = parameters;
+  if (!frame.changes.empty()) settings["norrsken.camera"] = frame.changes;
   if (options.adaptive) settings["norrsken.adaptive"] = "true";
   for (auto& [name, text] : settings) text = printable(trim(text));
   return settings;

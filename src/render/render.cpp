@@ -6,17 +6,21 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <utility>
 
 #include "compile/compile.h"
+#include "film/film_image.h"
 #include "film/section_file.h"
 #include "isa/entry.h"
 #include "render/checkpoint_file.h"
 #include "render/crew.h"
 #include "render/frame_memory.h"
 #include "render/provenance.h"
+#include "render/scene_state.h"
 #include "render/scene_view.h"
+#include "scene/within_memory.h"
 
 namespace norrsken {
 namespace {
@@ -48,14 +52,14 @@ class Temporarily {
   bool before_;
 };
 
-FilmSettings film_settings(const SceneTables& tables) {
-  FilmSettings film = tables.film;
-  film.opaque = tables.environment != kNone && !tables.integrator.hide_emitters;
+FilmSettings film_settings(const Scene& scene) {
+  FilmSettings film = scene.frame().film;
+  film.opaque = scene.tables().tables.environment != kNone && !scene.frame().integrator.hide_emitters;
   return film;
 }
 
 SceneLayers layers(const Scene& scene, const RenderOptions& options) {
-  SceneLayers layers = scene.tables().layers;
+  SceneLayers layers = scene.frame().layers;
   if (options.features) {
     for (FeatureLayer& layer : standard_features()) layers.features.push_back(std::move(layer));
   }
@@ -63,19 +67,19 @@ SceneLayers layers(const Scene& scene, const RenderOptions& options) {
 }
 
 bool needs_all_features(const Scene& scene) {
-  return !scene.tables().layers.features.empty() || scene.tables().tables.film.has_alpha();
+  return !scene.frame().layers.features.empty() || scene.frame().film.has_alpha();
 }
 
 /// The samples that are asked for, by the scene if nobody else does.
-SampleRange sample_range(const SceneTables& tables, const RenderOptions& options) {
+SampleRange sample_range(const Scene& scene, const RenderOptions& options) {
   if (options.samples) return *options.samples;
-  const auto count = options.samples_per_pixel.value_or(static_cast<int>(tables.sampler.samples_per_pixel));
+  const auto count = options.samples_per_pixel.value_or(static_cast<int>(scene.frame().sampler.samples_per_pixel));
   return {0, static_cast<std::uint32_t>(count)};
 }
 
 /// Planes hold polygons, which do not know the triangles that they were merged from.
 bool counts_triangles(const Scene& scene) {
-  return std::ranges::any_of(scene.tables().layers.features,
+  return std::ranges::any_of(scene.frame().layers.features,
                              [](const FeatureLayer& layer) { return layer.feature == kFeaturePrimitive; });
 }
 
@@ -102,46 +106,73 @@ Work make_work(const SceneView& view, const Film& film, const SampleSchedule& sc
   return work;
 }
 
+/// Tells when every pixel has more than before.
+class PassTeller {
+ public:
+  PassTeller(std::function<void(const RenderPass&)> tell, Crew& crew, const std::atomic<bool>& has_features)
+      : tell_(std::move(tell)), crew_(crew), has_features_(has_features), told_{0, has_features} {}
+
+  void look() {
+    if (!tell_) return;
+    const RenderPass now{crew_.least_samples(), has_features_};
+    if (now.samples <= told_.samples && now.has_layers == told_.has_layers) return;
+    told_ = now;
+    tell_(now);
+  }
+
+ private:
+  std::function<void(const RenderPass&)> tell_;
+  Crew& crew_;
+  const std::atomic<bool>& has_features_;
+  RenderPass told_;
+};
+
 class RenderSession final : public Render {
  public:
   RenderSession(Scene scene, const RenderOptions& options, const KernelEntry& kernels, MemoryReservation frame,
-                std::unique_ptr<const Accel> accel)
+                std::shared_ptr<const Accel> accel)
       : scene_(std::move(scene)),
-        tables_(scene_.tables().tables),
         kernels_(kernels),
-        frame_(std::move(frame)),
+        memory_(std::move(frame)),
         accel_(std::move(accel)),
-        view_(make_scene_view(tables_, accel_->view())),
+        view_(scene_.state().view(scene_.frame(), accel_->view())),
         threads_(crew_size(options.threads)),
-        film_(film_settings(tables_), view_.sampler.kind, layers(scene_, options)),
-        schedule_(make_schedule(sample_range(tables_, options), options)),
-        work_(make_work(view_, film_, schedule_, sample_range(tables_, options),
-                        feature_range(scene_, options, sample_range(tables_, options)))) {
+        film_(film_settings(scene_), view_.sampler.kind, layers(scene_, options)),
+        schedule_(make_schedule(sample_range(scene_, options), options)),
+        work_(make_work(view_, film_, schedule_, sample_range(scene_, options),
+                        feature_range(scene_, options, sample_range(scene_, options)))) {
     view_.sampler.seed += options.seed;
     film_.set_samples(SampleSet({{work_.samples.first, kMostSamples}}));
-    if (view_.integrator.from_lights) film_.add_splats(Splats(view_.film, tables_.filter));
+    if (view_.integrator.from_lights) film_.add_splats(Splats(view_.film, scene_.frame().filter));
     made_.settings = settings_of(scene_, options, kernels_.name, accel_name(view_.accel.kind));
     if (options.samples) ranges_ = {*options.samples};
     if (options.checkpoint.empty()) return;
     checkpoint_seconds_ = options.checkpoint_seconds;
-    FilmForm form = {film_settings(tables_), view_.sampler.kind, view_.integrator.from_lights, layers(scene_, options)};
-    Traits traits = traits_of(tables_, view_, form.settings, form.layers, kernels_.name, accel_name(view_.accel.kind));
+    FilmForm form = {film_settings(scene_), view_.sampler.kind, view_.integrator.from_lights, layers(scene_, options)};
+    Traits traits = traits_of(scene_.tables().tables, scene_.frame(), view_, form.settings, form.layers, kernels_.name,
+                              accel_name(view_.accel.kind));
     checkpoint_.emplace(options.checkpoint, std::move(traits), std::move(form));
   }
 
   /// Takes up what the checkpoint holds, if there is to be one.
   void resume(Diagnostics& diagnostics) {
     if (checkpoint_) checkpoint_->resume(schedule_, work_, film_, seconds_before_, diagnostics);
+    has_features_ = work_.features_done();
   }
 
-  RenderStatistics run(const std::function<void(const RenderProgress&)>& on_progress) override {
-    Crew crew(view_, kernels_, film_, work_, threads_, cancelled_);
+  RenderStatistics run(const RenderCallbacks& callbacks) override {
+    const auto& on_progress = callbacks.on_progress;
+    Crew& crew = start_crew();
     const std::uint64_t resumed = crew.samples_done();
     Stopwatch watch;
     const auto progress = [&] { return progress_of(crew, resumed, watch.seconds()); };
+    const auto tell = [&] {
+      if (on_progress) on_progress(progress());
+    };
+    PassTeller passes(callbacks.on_pass, crew, has_features_);
     bool is_complete = false;
-    while (!is_complete && !cancelled_.load(std::memory_order_relaxed)) {
-      reach_goal(crew, watch, on_progress ? [&] { on_progress(progress()); } : std::function<void()>{});
+    while (!is_complete && failure_.empty() && !cancelled_.load(std::memory_order_relaxed)) {
+      reach_goal(crew, watch, tell, passes);
       const double seconds = watch.seconds();
       is_complete = has_features_ && work_.has_first_samples() && schedule_.is_over(seconds);
       if (!work_.done() || is_complete) continue;
@@ -154,7 +185,8 @@ class RenderSession final : public Render {
     RenderStatistics s = crew.statistics();
     s.samples_resumed = resumed;
     s.seconds = watch.seconds();
-    s.cancelled = !is_complete;
+    s.failure = failure_;
+    s.cancelled = !is_complete && failure_.empty();
     s.has_image = s.samples > 0 && work_.features_done();
     s.checkpoint_error = checkpoint_error_;
     s.error = film_.error({0, 0, film_.width(), film_.height()}).relative();
@@ -162,11 +194,13 @@ class RenderSession final : public Render {
     s.lanes = static_cast<int>(kernels_.lanes);
     s.samples_of_pixels = !view_.integrator.from_lights;
     s.accelerator = accel_name(view_.accel.kind);
-    made_.seconds = seconds_before_ + s.seconds;
-    metadata_ = metadata_of(
-        made_, {static_cast<double>(s.samples) / pixels(), ranges_, s.error, s.dropped_samples, s.cancelled});
+    // With a checkpoint it is what that says: whoever goes on from it has taken no less.
+    if (!checkpoint_) made_.seconds = seconds_before_ + s.seconds;
+    passes.look();
+    RenderProgress last = progress();
+    end_crew(metadata_of(
+        made_, {static_cast<double>(s.samples) / pixels(), ranges_, s.error, s.dropped_samples, !is_complete}));
     if (on_progress) {
-      RenderProgress last = progress();
       last.elapsed_seconds = s.seconds;
       last.error = s.error;
       if (is_complete) last.fraction = 1, last.seconds_left = 0, last.samples_total = last.samples_done;
@@ -178,10 +212,21 @@ class RenderSession final : public Render {
   void cancel() noexcept override { cancelled_.store(true, std::memory_order_relaxed); }
   bool is_sampling() const noexcept override { return is_sampling_.load(std::memory_order_relaxed); }
 
-  Image image(bool statistics) const override {
-    Image image = film_.image(statistics, work_.feature_samples.count());
-    image.metadata = metadata_;
-    return image;
+  Image image(bool statistics, const std::optional<ImageRegion>& region) const override {
+    FilmImage image(film_, region_of(region), statistics, has_features_ ? work_.feature_samples.count() : 0);
+    Metadata metadata;
+    {
+      const std::lock_guard lock(crew_mutex_);
+      if (crew_) {
+        crew_->look_at(image.needed(), [&](const FilmRegion& part) { image.take(part); });
+      } else {
+        image.take(image.needed());
+      }
+      metadata = crew_ ? metadata_so_far() : metadata_;
+    }
+    Image result = std::move(image).finish();
+    result.metadata = std::move(metadata);
+    return result;
   }
 
  private:
@@ -193,8 +238,37 @@ class RenderSession final : public Render {
 
   double pixels() const { return static_cast<double>(film_.width()) * film_.height(); }
 
-  /// Until the goal is reached, the rendering is cancelled or time is up. `tell` is called now and then if there is one.
-  void reach_goal(Crew& crew, Stopwatch& watch, const std::function<void()>& tell) {
+  FilmRegion region_of(const std::optional<ImageRegion>& region) const {
+    const auto width = static_cast<std::int64_t>(film_.width()), height = static_cast<std::int64_t>(film_.height());
+    if (!region) return {0, 0, film_.width(), film_.height()};
+    const std::int64_t x0 = std::clamp<std::int64_t>(region->x, 0, width),
+                       y0 = std::clamp<std::int64_t>(region->y, 0, height),
+                       x1 = std::clamp(std::int64_t{region->x} + region->width, x0, width),
+                       y1 = std::clamp(std::int64_t{region->y} + region->height, y0, height);
+    return {static_cast<std::uint32_t>(x0), static_cast<std::uint32_t>(y0), static_cast<std::uint32_t>(x1 - x0),
+            static_cast<std::uint32_t>(y1 - y0)};
+  }
+
+  Crew& start_crew() {
+    const std::lock_guard lock(crew_mutex_);
+    crew_ = std::make_unique<Crew>(view_, kernels_, film_, work_, threads_, cancelled_);
+    return *crew_;
+  }
+  /// From then on nobody writes to the film.
+  void end_crew(Metadata metadata) {
+    const std::lock_guard lock(crew_mutex_);
+    crew_.reset();
+    metadata_ = std::move(metadata);
+  }
+
+  /// Of an image that is taken while it is rendered.
+  Metadata metadata_so_far() const {
+    const double samples = static_cast<double>(crew_->samples_done()) / pixels();
+    return metadata_of({made_.settings, seconds_now_}, {samples, ranges_, {}, 0, true});
+  }
+
+  /// Until the goal is reached, the rendering is cancelled or time is up. `tell` is called now and then.
+  void reach_goal(Crew& crew, Stopwatch& watch, const std::function<void()>& tell, PassTeller& passes) {
     Stopwatch since_progress;
     has_features_ = work_.features_done();
     // Without a sample of every pixel there is no image to stop at.
@@ -208,26 +282,30 @@ class RenderSession final : public Render {
       // Whoever looks at the film takes no samples, though its workers do.
       const Crew::Tick tick{tick_interval(), [&] {
                               const Temporarily looking(is_sampling_, false);
-                              if (tell && since_progress.seconds() >= kProgressSeconds) {
+                              if (since_progress.seconds() >= kProgressSeconds) {
                                 since_progress = {};
                                 tell();
                               }
+                              passes.look();
+                              seconds_now_ = seconds_before_ + watch.seconds();
                               return goes_on() && (!checkpoint_ || since_save.seconds() < checkpoint_seconds_);
                             }};
       if (!has_features_) {
         const Temporarily sampling(is_sampling_, true);
-        crew.run_features(tick);
+        if (!crew.run_features(tick)) return give_up();
         has_features_ = work_.features_done();
         watch = {};  // figures, and the time that there is, are those of the image, not of its layers
       }
       if (has_features_) {
         const Temporarily sampling(is_sampling_, true);
-        crew.run(tick);
+        if (!crew.run(tick)) return give_up();
       }
       made_.seconds = seconds_before_ + watch.seconds();
       save();
     }
   }
+
+  void give_up() { failure_ = "the system starts no more threads"; }
 
   RenderProgress progress_of(Crew& crew, std::uint64_t resumed, double seconds) const {
     RenderProgress p;
@@ -251,22 +329,25 @@ class RenderSession final : public Render {
   }
 
   Scene scene_;
-  const SceneTables& tables_;
   const KernelEntry& kernels_;
-  MemoryReservation frame_;  ///< of film, image and threads
-  std::unique_ptr<const Accel> accel_;
+  MemoryReservation memory_;  ///< of film, image and threads
+  std::shared_ptr<const Accel> accel_;
   SceneView view_;
   int threads_;
   Film film_;
   SampleSchedule schedule_;
   Work work_;
-  bool has_features_ = false;  ///< as far as the calling thread knows
+  std::atomic<bool> has_features_{false};  ///< as far as the thread that runs knows
+  std::string failure_;
   std::optional<CheckpointFile> checkpoint_;
   double checkpoint_seconds_ = 0;
   std::string checkpoint_error_;
   Provenance made_;
-  double seconds_before_ = 0;  ///< that the checkpoint's samples took
+  double seconds_before_ = 0;           ///< that the checkpoint's samples took
+  std::atomic<double> seconds_now_{0};  ///< that the samples took
   std::vector<SampleRange> ranges_;
+  mutable std::mutex crew_mutex_;  ///< for what follows, of the threads that look
+  std::unique_ptr<Crew> crew_;     ///< while there is one at work
   Metadata metadata_;
   std::atomic<bool> cancelled_{false}, is_sampling_{false};
 };
@@ -277,7 +358,8 @@ IoStatus check_checkpoint_writable(const std::string& path) { return check_secti
 
 std::vector<std::string> checkpoint_files(const std::string& path) { return files_of_sections(path); }
 
-std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& options, Diagnostics& diagnostics) {
+Result<std::unique_ptr<Render>> Render::create(const Scene& scene, const RenderOptions& options) {
+  Diagnostics diagnostics(options.log);
   const KernelEntry* kernels = choose_kernels(options.isa, diagnostics);
   if (options.samples_per_pixel && *options.samples_per_pixel < 1) {
     diagnostics.error({}, "samples per pixel is " + std::to_string(*options.samples_per_pixel),
@@ -295,7 +377,7 @@ std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& 
     diagnostics.error({}, "samples of a range are taken all",
                       "no range, or neither an error, nor a time, nor adaptivity");
   }
-  if (options.adaptive && scene.tables().tables.integrator.from_lights) {
+  if (options.adaptive && scene.frame().integrator.from_lights) {
     diagnostics.error({}, "adaptive sampling with paths that begin at the lights", "another integrator than ptracer");
   }
   const AccelKind accel = choose_accel(options.accelerator, scene.tables().tables,
@@ -308,15 +390,23 @@ std::unique_ptr<Render> Render::create(const Scene& scene, const RenderOptions& 
     diagnostics.error({}, fmt::format("samples end at {}", options.samples->end),
                       fmt::format("up to {}", kMostSamples));
   }
-  if (diagnostics.has_errors()) return nullptr;
-  auto frame = reserve_frame(scene.tables(), film_settings(scene.tables().tables), layers(scene, options),
-                             crew_size(options.threads), diagnostics);
-  auto built = frame ? build_accel(scene.tables(), accel, crew_size(options.threads), diagnostics) : nullptr;
-  if (!built) return nullptr;
-  auto session = std::make_unique<RenderSession>(scene, options, *kernels, std::move(*frame), std::move(built));
-  session->resume(diagnostics);
-  if (diagnostics.has_errors()) return nullptr;
-  return session;
+  if (diagnostics.has_errors()) return diagnostics;
+  auto memory = reserve_frame(scene.tables(), scene.frame(), film_settings(scene), layers(scene, options),
+                              crew_size(options.threads), diagnostics);
+  auto built =
+      memory ? scene.state().accel(accel, scene.frame().layers, crew_size(options.threads), diagnostics) : nullptr;
+  if (!built) return diagnostics;
+  std::unique_ptr<RenderSession> session;
+  try {
+    within_memory({}, "the rendering", diagnostics, [&] {
+      session = std::make_unique<RenderSession>(scene, options, *kernels, std::move(*memory), std::move(built));
+      session->resume(diagnostics);
+    });
+  } catch (const LoadingStopped&) {
+    // It has been said why.
+  }
+  if (diagnostics.has_errors()) return diagnostics;
+  return {std::move(session), std::move(diagnostics)};
 }
 
 }  // namespace norrsken

@@ -32,6 +32,23 @@ const T* data_or_one(const Array<T>& values) {
   return values.empty() ? &one : values.data();
 }
 
+/// From what has a frame's members: the tables have those of the frame that they were loaded with.
+template <class Frame>
+void set_frame_from(const Frame& frame, const SceneTables& tables, SceneView& view) {
+  view.camera = frame.camera;
+  view.film = frame.film;
+  view.filter = frame.filter.data();
+  view.sampler = frame.sampler;
+  view.integrator = frame.integrator;
+  view.integrator.rr_depth = std::min(view.integrator.rr_depth, kLatestRoulette);
+  // Paths that begin at the lights have no place to choose them for.
+  const bool by_place = !tables.light_nodes.empty() && !frame.integrator.from_lights;
+  view.light_nodes = by_place ? tables.light_nodes.data() : nullptr;
+  const bool samples_lights = !tables.lights.empty() && frame.integrator.emitter_samples > 0;
+  const bool lists_choices = view.any_resolved && samples_lights && tables.material_choices <= kMostListedChoices;
+  view.material_codes = lists_choices ? 1u << tables.material_choices : SceneView().material_codes;
+}
+
 /// Planes widen their polygons by what rounding does to coordinates of the scene: too much for a mesh, or a part of one that
 /// shares no vertex with the rest, that is far from the origin and small. At 300 times its size a triangle has grown by
 /// 0.2 % of its area, at 3000 times by 2 %.
@@ -150,7 +167,6 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   std::copy_n(tables.center, 3, view.center);
   view.radius = tables.radius;
   view.lights = tables.lights.data();
-  view.light_nodes = tables.light_nodes.empty() ? nullptr : tables.light_nodes.data();
   view.light_leaves = tables.light_leaves.data();
   view.lights_around = tables.lights_around.data();
   view.lights_around_count = static_cast<std::uint32_t>(tables.lights_around.size());
@@ -170,22 +186,17 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   view.any_resolved = view.bsdf_kinds >> kModelCount != 0;
   if (view.any_resolved) view.bsdf_kinds |= tables.bsdf_kinds | 1u << static_cast<std::uint32_t>(BsdfKind::absorb);
   view.refracts = (view.bsdf_kinds & kRefractingKinds) != 0;
-  const bool samples_lights = !tables.lights.empty() && tables.integrator.emitter_samples > 0;
-  if (view.any_resolved && samples_lights && tables.material_choices <= kMostListedChoices) {
-    view.material_codes = 1u << tables.material_choices;
-  }
   for (const LightRecord& light : tables.lights) view.light_kinds |= 1u << static_cast<std::uint32_t>(light.kind);
   view.any_area_light = !tables.primitive_lights.empty();
   view.any_smooth =
       std::any_of(tables.shapes.begin(), tables.shapes.end(), [](const ShapeRecord& s) { return s.smooth != 0; });
-  view.camera = tables.camera;
-  view.film = tables.film;
-  view.filter = tables.filter.data();
-  view.sampler = tables.sampler;
-  view.integrator = tables.integrator;
-  view.integrator.rr_depth = std::min(view.integrator.rr_depth, kLatestRoulette);
+  set_frame_from(tables, tables, view);
   view.accel = accel;
   return view;
+}
+
+void set_frame(SceneView& view, const SceneFrame& frame, const SceneTables& tables) {
+  set_frame_from(frame, tables, view);
 }
 
 }  // namespace norrsken

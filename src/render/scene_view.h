@@ -22,7 +22,10 @@ AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::
                        Diagnostics& diagnostics);
 const char* accel_name(AccelKind kind);
 
-/// Borrows from both arguments, which must outlive it.
+/// In the frame that the scene was loaded with. Borrows from both arguments, which must outlive it.
 SceneView make_scene_view(const SceneTables& tables, const AccelView& accel);
+
+/// Gives a view of the tables another frame, which must outlive it.
+void set_frame(SceneView& view, const SceneFrame& frame, const SceneTables& tables);
 
 }  // namespace norrsken

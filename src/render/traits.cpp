@@ -60,8 +60,8 @@ std::string describe(const SceneLayers& layers) {
 
 }  // namespace
 
-Traits traits_of(const SceneTables& t, const SceneView& view, const FilmSettings& film, const SceneLayers& layers,
-                 const std::string& isa, const std::string& accelerator) {
+Traits traits_of(const SceneTables& t, const SceneFrame& frame, const SceneView& view, const FilmSettings& film,
+                 const SceneLayers& layers, const std::string& isa, const std::string& accelerator) {
   // What is computed from other members of the tables is left out.
   const FilterRecord& filter_record = film.filter;
   return {
@@ -69,15 +69,15 @@ Traits traits_of(const SceneTables& t, const SceneView& view, const FilmSettings
       {"instruction set", isa},
       {"accelerator", accelerator},
       {"size", describe_size(film)},
-      {"sampler", t.sampler.kind == SamplerKind::independent ? "independent" : "sobol"},
+      {"sampler", frame.sampler.kind == SamplerKind::independent ? "independent" : "sobol"},
       {"seed", std::to_string(view.sampler.seed)},
       {"integrator", describe(view.integrator)},
       {"image format", describe_format(film)},
       {"layers", describe(layers)},
-      fingerprint("reconstruction filter", t.filter,
+      fingerprint("reconstruction filter", frame.filter,
                   words({static_cast<std::uint32_t>(filter_record.kind), filter_record.nodes, filter_record.cells,
                          filter_record.edges, filter_record.signs, film.sample_border})),
-      fingerprint("camera", std::span(&t.camera, 1)),
+      fingerprint("camera", std::span(&frame.camera, 1)),
       fingerprint("shapes", t.positions, t.normals, t.texcoords, t.triangle_vertices, t.surfaces, t.shapes, t.analytics,
                   t.instances, words({t.group_count, t.first_analytic, t.needs_uv}), std::span(t.center),
                   std::span(&t.radius, 1)),

@@ -20,8 +20,8 @@ using Traits = std::vector<Trait>;
 
 /// Of a scene as it is rendered: tables with all meshes and textures, settings, instruction set, and this program.
 /// Neither the number of samples nor that of threads.
-Traits traits_of(const SceneTables& tables, const SceneView& view, const FilmSettings& film, const SceneLayers& layers,
-                 const std::string& isa, const std::string& accelerator);
+Traits traits_of(const SceneTables& tables, const SceneFrame& frame, const SceneView& view, const FilmSettings& film,
+                 const SceneLayers& layers, const std::string& isa, const std::string& accelerator);
 
 /// "seed is 7, not 8; other textures", or nothing if all are equal: how `found` is not `expected`.
 std::string difference(const Traits& found, const Traits& expected);

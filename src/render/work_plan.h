@@ -20,6 +20,14 @@ struct TileGrid {
   std::uint64_t tile_count() const { return std::uint64_t{columns} * rows; }
   FilmRegion region_of(std::uint64_t tile) const;
   std::uint64_t pixels_of(std::uint64_t tile) const;
+  /// Calls visit(tile) for the tiles that have pixels in a region.
+  template <class Region, class Visit>
+  void for_each_tile(const Region& region, const Visit& visit) const {
+    for (std::uint64_t y = region.y0 / tile_height; y * tile_height < region.y0 + region.height; ++y) {
+      for (std::uint64_t x = region.x0 / tile_width; x * tile_width < region.x0 + region.width; ++x)
+        visit(y * columns + x);
+    }
+  }
 
   std::uint32_t width, height;  ///< of the image
   std::uint32_t slots;          ///< at most, of a wave

@@ -30,7 +30,7 @@ namespace {
 constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr double kMaxWavelength = 1e6;  // nm
 
-using Value = decltype(Property::value);
+using Value = Property::Value;
 
 Value blackbody(Parameters& p) {
   p.require("temperature", "<float name=\"temperature\" value=\"5000\"/>");
@@ -40,13 +40,13 @@ Value blackbody(Parameters& p) {
 
 Value d65(Parameters& p) {
   const double scale = p.number("scale", 1, -kAny, kAny);
-  return Property::Rgb{scale * p.color("color", glm::dvec3(1), -kAny, kAny)};
+  return Property::Rgb{to_array(scale * p.color("color", glm::dvec3(1), -kAny, kAny))};
 }
 
 Value srgb(Parameters& p) {
   p.require("color", "<rgb name=\"color\" value=\"0.5 0.5 0.5\"/>");
   p.boolean("unbounded", false);  // whoever asks for the colour says what is in range
-  return Property::Rgb{p.color("color", glm::dvec3(0), -kAny, kAny)};
+  return Property::Rgb{to_array(p.color("color", glm::dvec3(0), -kAny, kAny))};
 }
 
 Value uniform(Parameters& p) {
@@ -61,8 +61,9 @@ Value rawconstant(Parameters& p) {
   const auto is_vector = [](const Property& property) {
     return property.name == "value" && std::holds_alternative<Property::Vector>(property.value);
   };
-  if (std::ranges::any_of(p.node().properties, is_vector)) return Property::Rgb{p.point("value", glm::dvec3(0))};
-  return Property::Rgb{p.color("value", glm::dvec3(0), -kAny, kAny)};
+  if (std::ranges::any_of(p.node().properties, is_vector))
+    return Property::Rgb{to_array(p.point("value", glm::dvec3(0)))};
+  return Property::Rgb{to_array(p.color("value", glm::dvec3(0), -kAny, kAny))};
 }
 
 /// At least two values; a complaint otherwise.

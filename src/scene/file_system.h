@@ -25,6 +25,8 @@ class FileSystem {
   /// Whether there is a file or a folder of that name.
   virtual bool exists(const std::string& path) const;
   virtual bool is_folder(const std::string& path) const;
+  /// Whether its paths are those of the disk.
+  virtual bool is_disk() const { return true; }
   /// Names of what is in a folder, sorted; of very many the first that come.
   virtual std::vector<std::string> list(const std::string& folder) const;
 };

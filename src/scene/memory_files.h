@@ -1,4 +1,4 @@
-// Files that exist in memory only: for tests and fuzzers.
+// Files that exist in memory only.
 #pragma once
 
 #include <map>
@@ -12,7 +12,9 @@ namespace norrsken {
 /// Path to contents. Knows no disk and no built-in files.
 class MemoryFiles : public FileSystem {
  public:
-  explicit MemoryFiles(std::map<std::string, std::string> files = {}) : files_(std::move(files)) {}
+  explicit MemoryFiles(std::map<std::string, std::string> files = {}) {
+    for (auto& [path, contents] : files) add(path, std::move(contents));
+  }
 
   void add(const std::string& path, std::string contents) { files_[normal_path(path)] = std::move(contents); }
 
@@ -21,6 +23,8 @@ class MemoryFiles : public FileSystem {
     error = exists(path) ? "is a folder" : "no such file";
     return std::nullopt;
   }
+
+  bool is_disk() const override { return false; }
 
   std::uint64_t size(const std::string& path) const override {
     const auto found = files_.find(normal_path(path));

@@ -14,6 +14,7 @@
 #include "color/spectrum.h"
 #include "scene/constant_spectrum.h"
 #include "scene/find_file.h"
+#include "scene/parameters_find.h"
 
 namespace norrsken {
 namespace {
@@ -89,19 +90,6 @@ const Node::Child* Parameters::find_child(std::string_view name) const {
 }
 
 template <typename... Types>
-const Property* Parameters::find_as(std::string_view name, std::string_view accepted) {
-  const Property* property = find(name);
-  if (property && (std::holds_alternative<Types>(property->value) || ...)) return property;
-  if (property) {
-    error(name, fmt::format("'{}' is {}", name, with_article(property->type)), std::string(accepted));
-    return nullptr;
-  }
-  if (const Node::Child* child = find_child(name))
-    error(name, fmt::format("'{}' is {} here", name, with_article(child->node->kind)), std::string(accepted));
-  return nullptr;
-}
-
-template <typename... Types>
 const Property* Parameters::find_value(std::string_view name, std::string_view accepted, Property& storage) {
   const Node::Child* child = find_child(name);
   if (!child || !is_constant_spectrum(*child->node)) return find_as<Types...>(name, accepted);
@@ -114,11 +102,14 @@ const Property* Parameters::find_value(std::string_view name, std::string_view a
 }
 
 bool Parameters::boolean(std::string_view name, bool fallback) {
+  note(name, PluginParameter::Type::boolean, fallback ? "true" : "false");
   const Property* property = find_as<bool>(name, "boolean");
   return property ? std::get<bool>(property->value) : fallback;
 }
 
 std::int64_t Parameters::integer(std::string_view name, std::int64_t fallback, std::int64_t min, std::int64_t max) {
+  note(name, PluginParameter::Type::integer, std::to_string(fallback));
+  note_range(name, static_cast<double>(min), static_cast<double>(max), Ends::closed);
   const Property* property = find_as<std::int64_t>(name, "integer");
   if (!property) return fallback;
   const std::int64_t value = std::get<std::int64_t>(property->value);
@@ -131,12 +122,16 @@ std::int64_t Parameters::integer(std::string_view name, std::int64_t fallback, s
 }
 
 double Parameters::number(std::string_view name, double fallback, double min, double max, Ends ends) {
+  note(name, PluginParameter::Type::number, fmt::format("{}", fallback));
+  note_range(name, min, max, ends);
   Property storage;
   const Property* property = find_value<double, std::int64_t>(name, "float", storage);
   return property ? number_of(*property, name, fallback, min, max, ends) : fallback;
 }
 
 double Parameters::mean(std::string_view name, double fallback, double min, double max, Ends ends) {
+  note(name, PluginParameter::Type::number, fmt::format("{}", fallback));
+  note_range(name, min, max, ends);
   Property storage;
   const Property* property =
       find_value<double, std::int64_t, Property::Rgb, Property::Spectrum>(name, "float, rgb, spectrum", storage);
@@ -171,11 +166,15 @@ std::optional<double> Parameters::value_of(const Property& property, std::string
 
 double Parameters::number_clamped(std::string_view name, double fallback, double min, double max,
                                   Diagnostic::Severity severity) {
+  note(name, PluginParameter::Type::number, fmt::format("{}", fallback));
+  note_range(name, min, max, Ends::closed);
   Property storage;
   return clamped(find_value<double, std::int64_t>(name, "float", storage), name, fallback, min, max, severity);
 }
 
 double Parameters::mean_clamped(std::string_view name, double fallback, double min, double max) {
+  note(name, PluginParameter::Type::number, fmt::format("{}", fallback));
+  note_range(name, min, max, Ends::closed);
   Property storage;
   const Property* property =
       find_value<double, std::int64_t, Property::Rgb, Property::Spectrum>(name, "float, rgb, spectrum", storage);
@@ -197,6 +196,7 @@ double Parameters::clamped(const Property* property, std::string_view name, doub
 }
 
 std::string Parameters::text(std::string_view name, std::string_view fallback) {
+  note(name, PluginParameter::Type::text, std::string(fallback));
   const Property* property = find_as<std::string>(name, "string");
   return property ? std::get<std::string>(property->value) : std::string(fallback);
 }
@@ -204,6 +204,8 @@ std::string Parameters::text(std::string_view name, std::string_view fallback) {
 std::string Parameters::choice(std::string_view name, std::string_view fallback,
                                std::initializer_list<std::string_view> words) {
   const std::vector<std::string> choices(words.begin(), words.end());
+  note(name, PluginParameter::Type::text, std::string(fallback));
+  if (record_) recorded(name).choices = choices;
   const Property* property = find_as<std::string>(name, "string: " + join(choices));
   if (!property) return std::string(fallback);
   const std::string& value = std::get<std::string>(property->value);
@@ -215,6 +217,7 @@ std::string Parameters::choice(std::string_view name, std::string_view fallback,
 }
 
 const Node::Child* Parameters::texture(std::string_view name) {
+  if (record_) recorded(name).may_be_texture = true;
   const Node::Child* child = find_child(name);
   if (!child || !is_spectrum_or_texture(*child->node) || is_constant_spectrum(*child->node)) return nullptr;
   asked_names_.emplace(name);
@@ -222,6 +225,10 @@ const Node::Child* Parameters::texture(std::string_view name) {
 }
 
 glm::dvec3 Parameters::color(std::string_view name, glm::dvec3 fallback, double min, double max, bool emission) {
+  const bool is_grey = fallback.x == fallback.y && fallback.y == fallback.z;
+  note(name, PluginParameter::Type::color,
+       is_grey ? fmt::format("{}", fallback.x) : fmt::format("{}, {}, {}", fallback.x, fallback.y, fallback.z));
+  note_range(name, min, max, Ends::closed);
   Property storage;
   const Property* property =
       find_value<Property::Rgb, Property::Spectrum, double, std::int64_t>(name, "rgb, spectrum, float", storage);
@@ -245,7 +252,7 @@ std::optional<glm::dvec3> Parameters::color_of(const Property& property, std::st
 
   glm::dvec3 value;
   if (const auto* rgb = std::get_if<Property::Rgb>(&property.value)) {
-    value = rgb->value;
+    value = to_glm(rgb->value);
   } else if (const auto* real = std::get_if<double>(&property.value)) {
     value = glm::dvec3(*real);
   } else {
@@ -261,6 +268,7 @@ std::optional<glm::dvec3> Parameters::color_of(const Property& property, std::st
 }
 
 std::vector<std::pair<double, double>> Parameters::spectrum(std::string_view name) {
+  note(name, PluginParameter::Type::spectrum);
   constexpr std::string_view kAccepted = "a spectrum of wavelength:value pairs";
   const Property* property = find_as<Property::Spectrum>(name, kAccepted);
   if (!property) return {};
@@ -270,26 +278,11 @@ std::vector<std::pair<double, double>> Parameters::spectrum(std::string_view nam
   return {};
 }
 
-std::vector<double> Parameters::numbers(std::string_view name) {
-  constexpr std::string_view kAccepted = "a string of numbers";
-  const Property* property = find_as<std::string>(name, kAccepted);
-  if (!property) return {};
-  std::vector<double> values;
-  for (const TextPiece& piece : split(std::get<std::string>(property->value), " \t\r\n,")) {
-    const NumberStatus status = parse_number(piece.text, values.emplace_back());
-    if (status == NumberStatus::ok) continue;
-    error(name, fmt::format("{} in '{}'{} {}", quoted(piece.text), name, property->origin, describe(status)),
-          std::string(kAccepted));
-    return {};
-  }
-  if (values.empty()) error(name, fmt::format("'{}' is empty{}", name, property->origin), std::string(kAccepted));
-  return values;
-}
-
 glm::dvec3 Parameters::point(std::string_view name, glm::dvec3 fallback) {
+  note(name, PluginParameter::Type::point, fmt::format("{}, {}, {}", fallback.x, fallback.y, fallback.z));
   const Property* property = find_as<Property::Vector>(name, "point, vector");
   if (!property) return fallback;
-  const glm::dvec3 value = std::get<Property::Vector>(property->value).value;
+  const glm::dvec3 value = to_glm(std::get<Property::Vector>(property->value).value);
   for (int i = 0; i < 3; ++i) {
     if (std::abs(value[i]) <= kMaxCoordinate) continue;
     error(name, fmt::format("'{}' is ({}, {}, {}){}", name, value.x, value.y, value.z, property->origin),
@@ -300,9 +293,10 @@ glm::dvec3 Parameters::point(std::string_view name, glm::dvec3 fallback) {
 }
 
 glm::dmat4 Parameters::transform(std::string_view name, Flat flat) {
+  note(name, PluginParameter::Type::transform);
   const Property* property = find_as<Property::Transform>(name, "transform");
   if (!property) return glm::dmat4(1);
-  const glm::dmat4& matrix = std::get<Property::Transform>(property->value);
+  const glm::dmat4 matrix = to_glm(std::get<Property::Transform>(property->value));
   const auto [complaint, accepted] = complaint_about(matrix, flat);
   if (complaint.empty()) return matrix;
   error(name, fmt::format("'{}' {}", name, complaint), accepted);
@@ -310,6 +304,7 @@ glm::dmat4 Parameters::transform(std::string_view name, Flat flat) {
 }
 
 std::string Parameters::file(std::string_view name) {
+  note(name, PluginParameter::Type::file);
   if (!require(name, fmt::format("<string name=\"{}\" value=\"...\"/>", name))) return {};
   const Property* property = find_as<std::string>(name, "string");
   if (!property) return {};
@@ -321,6 +316,8 @@ std::string Parameters::file(std::string_view name) {
 
 std::vector<const Node::Child*> Parameters::children(std::string_view kind) {
   asked_kinds_.emplace(kind);
+  if (record_ && std::ranges::find(record_->children, kind) == record_->children.end())
+    record_->children.emplace_back(kind);
   std::vector<const Node::Child*> found;
   for (const Node::Child& child : node_.children) {
     if (child.node->kind == kind) found.push_back(&child);
@@ -337,10 +334,39 @@ const Node::Child* Parameters::child(std::string_view kind) {
 }
 
 bool Parameters::require(std::string_view name, std::string_view example) {
+  if (record_) {
+    recorded(name).is_required = true;
+    recorded(name).fallback.clear();
+  }
   if (has(name)) return true;
   asked_names_.emplace(name);
   error(name, fmt::format("{} needs a parameter '{}'", name_of(node_), name), std::string(example));
   return false;
+}
+
+PluginParameter& Parameters::recorded(std::string_view name) {
+  auto& parameters = record_->parameters;
+  const auto known = std::ranges::find(parameters, name, &PluginParameter::name);
+  if (known != parameters.end()) return *known;
+  PluginParameter& added = parameters.emplace_back();
+  added.name = name;
+  return added;
+}
+
+void Parameters::note(std::string_view name, PluginParameter::Type type, std::string fallback) {
+  if (!record_) return;
+  PluginParameter& parameter = recorded(name);
+  parameter.type = type;
+  if (!parameter.is_required) parameter.fallback = std::move(fallback);
+}
+
+void Parameters::note_range(std::string_view name, double min, double max, Ends ends) {
+  if (!record_) return;
+  PluginParameter& parameter = recorded(name);
+  // Bounds that only say what the program can calculate with are none.
+  if (min > -kMaxCoordinate) parameter.min = min;
+  if (max < kMaxCoordinate) parameter.max = max;
+  parameter.min_belongs = ends == Ends::closed, parameter.max_belongs = ends != Ends::open;
 }
 
 SourceLocation Parameters::where(std::string_view name) const {

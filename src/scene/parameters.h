@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/memory.h"
+#include "norrsken/plugins.h"
 #include "scene/description.h"
 
 namespace norrsken {
@@ -30,6 +32,9 @@ enum class Flat { no, yes };
 class Parameters {
  public:
   Parameters(const Node& node, const Description& description, const FileSystem& files, Diagnostics& diagnostics);
+
+  /// From now on, what is asked for is written there, too.
+  void record(PluginInfo& asked) { record_ = &asked; }
 
   const Node& node() const { return node_; }
   Diagnostics& diagnostics() const { return diagnostics_; }
@@ -60,8 +65,20 @@ class Parameters {
   const Node::Child* texture(std::string_view name);
   /// Wavelengths in nm and values, spelled out; empty after a complaint.
   std::vector<std::pair<double, double>> spectrum(std::string_view name);
-  /// Numbers in a string, apart by blanks or commas; empty after a complaint.
+  /// Numbers in a string, apart by blanks or commas, or an array; empty after a complaint.
   std::vector<double> numbers(std::string_view name);
+  /// The same in the memory budget, for what may be large: floats, `per_element` for each element, all finite and at
+  /// most kMaxCoordinate in size.
+  Array<float> floats(std::string_view name, std::size_t per_element);
+  /// Whole numbers from 0 on, `per_element` for each element.
+  Array<std::uint32_t> indices(std::string_view name, std::size_t per_element);
+  /// What programs give in place of a file; null after a complaint, or if it was not given.
+  std::shared_ptr<const Mesh> mesh(std::string_view name) {
+    return shared<Mesh>(name, "a mesh, in scenes that a program makes");
+  }
+  std::shared_ptr<const Image> image(std::string_view name) {
+    return shared<Image>(name, "an image, in scenes that a program makes");
+  }
   glm::dvec3 point(std::string_view name, glm::dvec3 fallback);
   /// Identity if not given; projective ones are an error, and singular ones where nothing flat will do.
   glm::dmat4 transform(std::string_view name, Flat flat = Flat::no);
@@ -84,6 +101,10 @@ class Parameters {
   void finish();
 
  private:
+  /// Writes down that a parameter was asked for.
+  void note(std::string_view name, PluginParameter::Type type, std::string fallback = {});
+  void note_range(std::string_view name, double min, double max, Ends ends);
+  PluginParameter& recorded(std::string_view name);
   void accept_without_effect(const BaseParameter& parameter);
   const Property* find(std::string_view name);
   const Node::Child* find_child(std::string_view name) const;
@@ -93,6 +114,8 @@ class Parameters {
   /// The same, or what a node of one value says, which is put into `storage`.
   template <typename... Types>
   const Property* find_value(std::string_view name, std::string_view accepted, Property& storage);
+  template <class T>
+  std::shared_ptr<const T> shared(std::string_view name, std::string_view accepted);
   /// The mean of a colour; nothing after a complaint.
   std::optional<double> value_of(const Property& property, std::string_view name);
   double clamped(const Property* property, std::string_view name, double fallback, double min, double max,
@@ -105,6 +128,7 @@ class Parameters {
   const Description& description_;
   const FileSystem& files_;
   Diagnostics& diagnostics_;
+  PluginInfo* record_ = nullptr;
   std::set<std::string, std::less<>> asked_names_, asked_kinds_;
 };
 

@@ -34,7 +34,11 @@ class ParametersTest : public testing::Test {
     property.name_location = {"dir/room.xml", 3, 3, 1, "  N"};
     property.name = std::move(name);
     property.type = std::move(type);
-    property.value = std::move(value);
+    if constexpr (std::is_same_v<Value, glm::dmat4>) {
+      property.value = to_transform(value);
+    } else {
+      property.value = std::move(value);
+    }
     return property;
   }
   void give_child(std::string kind, std::string plugin, std::string name = {}, std::vector<Property> properties = {}) {

@@ -8,7 +8,7 @@
 namespace norrsken {
 
 std::optional<std::string> RecordedFiles::read(const std::string& path, std::string& error) const {
-  std::optional<std::string> contents = FileSystem::read(path, error);
+  std::optional<std::string> contents = files_->read(path, error);
   if (contents) {
     const std::uint64_t sum = checksum(std::as_bytes(std::span(*contents)));
     const std::lock_guard lock(mutex_);
@@ -21,7 +21,7 @@ std::vector<std::string> RecordedFiles::paths() const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> paths;
   for (const auto& [path, sum] : checksums_) {
-    if (!is_builtin(path)) paths.push_back(path);
+    if (is_disk() && !is_builtin(path)) paths.push_back(path);
   }
   return paths;
 }

@@ -127,6 +127,17 @@ void drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
   if (mesh.triangles.empty()) mesh = {};
 }
 
+struct MeshParameters {
+  glm::dmat4 to_world;
+  bool face_normals, flip_normals;
+};
+
+MeshParameters read_mesh_parameters(Parameters& p) {
+  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
+  const bool face_normals = p.boolean("face_normals", false);
+  return {to_world, face_normals, p.boolean("flip_normals", false)};
+}
+
 /// The file's bytes are let go of when they have been read.
 std::optional<MeshData> read_file(const std::string& path, Parameters& p, Builder& builder, const ReadMesh& read) {
   const std::optional<FileContents> contents = read_shape_file(path, p, builder);
@@ -190,34 +201,38 @@ bool place_mesh(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
 std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, const ReadMesh& read,
                                                std::optional<bool> flip_tex_coords) {
   const std::string path = p.file("filename");
-  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
-  bool face_normals = p.boolean("face_normals", false);
-  const bool flip_normals = p.boolean("flip_normals", false);
   if (flip_tex_coords) flip_tex_coords = p.boolean("flip_tex_coords", *flip_tex_coords);
-  if (path.empty()) return std::nullopt;
-
-  std::optional<MeshData> mesh = read_file(path, p, builder, read);
-  if (!mesh) return std::nullopt;
-  face_normals |= mesh->face_normals;
-  if (face_normals) mesh->normals = {};
-  if (!place_mesh(*mesh, to_world, p)) return std::nullopt;
-  if (!face_normals && mesh->normals.empty()) {
-    compute_normals(*mesh);
-    fill_missing_normals(*mesh);
-  }
-  if (!mesh->normals.empty() && normals_are_flat(*mesh)) mesh->normals = {};
-  if (flip_normals) {
-    reverse_winding(*mesh);
-    for (auto& normal : mesh->normals) normal = to_float(-to_dvec(normal));
+  std::optional<MeshData> mesh;
+  if (!path.empty()) mesh = read_file(path, p, builder, read);
+  if (!mesh) {
+    read_mesh_parameters(p);
+    return std::nullopt;
   }
   if (flip_tex_coords.value_or(false)) {
     for (auto& texcoord : mesh->texcoords) texcoord[1] = 1 - texcoord[1];
   }
+  return compile_mesh(p, builder, *std::move(mesh));
+}
+
+std::optional<ShapeGeometry> compile_mesh(Parameters& p, Builder& builder, MeshData mesh) {
+  auto [to_world, face_normals, flip_normals] = read_mesh_parameters(p);
+  face_normals |= mesh.face_normals;
+  if (face_normals) mesh.normals = {};
+  if (!place_mesh(mesh, to_world, p)) return std::nullopt;
+  if (!face_normals && mesh.normals.empty()) {
+    compute_normals(mesh);
+    fill_missing_normals(mesh);
+  }
+  if (!mesh.normals.empty() && normals_are_flat(mesh)) mesh.normals = {};
+  if (flip_normals) {
+    reverse_winding(mesh);
+    for (auto& normal : mesh.normals) normal = to_float(-to_dvec(normal));
+  }
   builder.describe(p.node(),
-                   fmt::format("{} triangle{}{}", mesh->triangles.size(), mesh->triangles.size() == 1 ? "" : "s",
-                               mesh->normals.empty() ? "" : ", smooth"));
+                   fmt::format("{} triangle{}{}", mesh.triangles.size(), mesh.triangles.size() == 1 ? "" : "s",
+                               mesh.normals.empty() ? "" : ", smooth"));
   ShapeGeometry geometry;
-  geometry.mesh = std::move(*mesh);
+  geometry.mesh = std::move(mesh);
   return geometry;
 }
 

@@ -43,6 +43,9 @@ using ReadMesh =
 std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, const ReadMesh& read,
                                                std::optional<bool> flip_tex_coords);
 
+/// Reads to_world, face_normals and flip_normals, and the shape that `mesh` becomes by them. Empty after a complaint.
+std::optional<ShapeGeometry> compile_mesh(Parameters& p, Builder& builder, MeshData mesh);
+
 /// Takes positions and normals to the world, winds triangles as their normals say, and drops triangles without an area
 /// (a warning with their number), possibly all. False after an error: a vertex too far away.
 bool place_mesh(MeshData& mesh, const glm::dmat4& to_world, Parameters& p);

@@ -1,15 +1,16 @@
 // bitmap: host side.
 //
 // Parameters
-//   filename     string (required): PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR
+//   filename     string (required): PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR. Programs may give an `image` in its place
 //   filter_type  bilinear (default) or nearest
-//   wrap_mode    repeat (default), mirror or clamp; of u or v alone: wrap_mode_u, wrap_mode_v (as in Mitsuba 0.6)
+//   wrap_mode    repeat (default), mirror or clamp
+//   wrap_mode_u, wrap_mode_v  the same of u or v alone, as in Mitsuba 0.6
 //   raw          boolean (default false): the numbers as they are stored, such as directions and heights. Otherwise
 //                8-bit and 16-bit integers are decoded from sRGB, but those of a PNG that says that it is linear: a gAMA
 //                chunk of 1 without an sRGB chunk
 //   to_uv        transform (default identity): of texture coordinates, in x and y
-//   format       auto (default), variant or fp16, and accel (boolean): how Mitsuba stores and looks up texels; accepted
-//                and without effect
+//   format, accel  auto (default), variant or fp16, and a boolean: how Mitsuba stores and looks up texels; accepted and
+//                without effect
 // Values of an image that are out of the range of what they stand for are clamped, with a warning. So are infinite ones, at
 // 65504 (the largest of half precision), and what is no number is 0. EXR: the channels R G B, X Y Z (CIE, turned into sRGB)
 // or Y, of any layer; a warning says which others are taken for them. HDR: RGBE and XYZE, rows and columns in any order;
@@ -26,7 +27,6 @@ std::uint32_t wrap_number(std::string_view mode) { return mode == "repeat" ? 0 :
 }  // namespace
 
 Texture compile_texture_bitmap(Parameters& p, Builder& builder) {
-  const std::string filename = p.file("filename");
   const bool nearest = p.choice("filter_type", "bilinear", {"bilinear", "nearest"}) == "nearest";
   const std::string wrap_mode = p.choice("wrap_mode", "repeat", {"repeat", "mirror", "clamp"});
   const std::uint32_t wrap = wrap_number(p.choice("wrap_mode_u", wrap_mode, {"repeat", "mirror", "clamp"})) +
@@ -36,8 +36,7 @@ Texture compile_texture_bitmap(Parameters& p, Builder& builder) {
   p.boolean("accel", true);
   ParameterBlock block;
   add_to_uv(block, p.transform("to_uv"));
-  if (filename.empty()) return {};
-  const auto image = builder.images().load(filename, raw, p.where("filename"));
+  const auto image = builder.images().of(p, raw);
   if (!image) return {};
   const auto texture_of = [&builder, block, wrap, nearest](const StoredImage& stored) {
     ParameterBlock whole = block;

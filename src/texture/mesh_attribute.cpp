@@ -14,8 +14,8 @@ namespace norrsken {
 Texture compile_texture_mesh_attribute(Parameters& p, Builder& builder) {
   constexpr double kAny = std::numeric_limits<double>::infinity();
   const double scale = p.number("scale", 1, -kAny, kAny);
-  if (!p.require("name", "<string name=\"name\" value=\"vertex_color\"/>")) return {};
   const std::string name = p.text("name", "");
+  if (!p.require("name", "<string name=\"name\" value=\"vertex_color\"/>")) return {};
   if (!name.starts_with("vertex_") && !name.starts_with("face_")) {
     p.error("name", quoted(name) + " is not the name of a mesh's attribute", "vertex_... or face_...");
     return {};

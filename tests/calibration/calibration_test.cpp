@@ -9,6 +9,7 @@
 
 #include "tests/end_to_end/param_name.h"
 #include "tests/end_to_end/rendering.h"
+#include "tests/told.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -43,7 +44,7 @@ Rendering render_one(const Scene& scene, const Setting& setting, std::uint64_t s
   options.samples_per_pixel = setting.samples;
   options.seed = seed;
   options.threads = kThreads;
-  const auto render = Render::create(scene, options, diagnostics);
+  const auto render = told(Render::create(scene, options), diagnostics);
   Rendering run;
   run.error = render->run().error;
   const Image image = render->image(true);

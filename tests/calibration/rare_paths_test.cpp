@@ -10,6 +10,7 @@
 
 #include "tests/end_to_end/param_name.h"
 #include "tests/end_to_end/rendering.h"
+#include "tests/told.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -55,12 +56,11 @@ TEST_P(RarePaths, TargetErrorIsKeptInNineteenOfTwenty) {
   double samples = 0, worst = 0;
   for (int run = 0; run < kRuns; ++run) {
     Diagnostics diagnostics;
-    const auto render = Render::create(scene,
-                                       {.target_error = c.target,
-                                        .adaptive = c.adaptive,
-                                        .seed = static_cast<std::uint64_t>(run),
-                                        .threads = kThreads},
-                                       diagnostics);
+    const auto render = told(Render::create(scene, {.target_error = c.target,
+                                                    .adaptive = c.adaptive,
+                                                    .seed = static_cast<std::uint64_t>(run),
+                                                    .threads = kThreads}),
+                             diagnostics);
     const RenderStatistics statistics = render->run();
     const double error = relative_error(picture_of(render->image(false)), truth);
     kept += error <= c.target ? 1 : 0;

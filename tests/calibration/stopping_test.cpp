@@ -9,6 +9,7 @@
 
 #include "tests/end_to_end/rendering.h"
 #include "tests/temporary_folder.h"
+#include "tests/told.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -26,7 +27,7 @@ struct Outcome {
 
 std::unique_ptr<Render> create(const Scene& scene, const RenderOptions& options) {
   Diagnostics diagnostics;
-  auto render = Render::create(scene, options, diagnostics);
+  auto render = told(Render::create(scene, options), diagnostics);
   if (!render) throw std::runtime_error(to_text(diagnostics.all().front()));
   return render;
 }
@@ -178,7 +179,7 @@ TEST(Steps, RefuseWhatHasNoMeaning) {
   const Scene scene = room(8);
   const auto complaint = [&](const RenderOptions& options) {
     Diagnostics diagnostics;
-    EXPECT_EQ(Render::create(scene, options, diagnostics), nullptr);
+    EXPECT_EQ(told(Render::create(scene, options), diagnostics), nullptr);
     return diagnostics.all().empty() ? "" : diagnostics.all().front().message;
   };
   EXPECT_EQ(complaint({.target_error = 1}), "target error is 1");

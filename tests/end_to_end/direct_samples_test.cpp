@@ -5,6 +5,7 @@
 #include "tests/end_to_end/scene_folder.h"
 #include "tests/statistics/judge.h"
 #include "tests/statistics/statistical_test.h"
+#include "tests/told.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -47,7 +48,7 @@ class Direct : public SceneFolder {
   Rays rays(const std::string& integrator) const {
     const Scene scene = load_elements(integrator + camera(kSize) + under_lamp(diffuse("0.5")));
     Diagnostics diagnostics;
-    const auto render = Render::create(scene, {.samples_per_pixel = 16, .threads = kThreads}, diagnostics);
+    const auto render = told(Render::create(scene, {.samples_per_pixel = 16, .threads = kThreads}), diagnostics);
     const RenderStatistics statistics = render->run();
     const auto samples = static_cast<double>(statistics.samples);
     return {static_cast<double>(statistics.shadow_rays) / samples,

@@ -5,6 +5,7 @@
 #include "norrsken/path_trace.h"
 #include "tests/end_to_end/param_name.h"
 #include "tests/end_to_end/scene_folder.h"
+#include "tests/told.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -34,7 +35,7 @@ class DroppedSamples : public SceneFolder, public ::testing::WithParamInterface<
   static Rendered render(const Scene& scene, const std::string& isa = test_isa()) {
     Diagnostics diagnostics;
     const auto render =
-        Render::create(scene, {.samples_per_pixel = kSamples, .seed = 4, .threads = 1, .isa = isa}, diagnostics);
+        told(Render::create(scene, {.samples_per_pixel = kSamples, .seed = 4, .threads = 1, .isa = isa}), diagnostics);
     Rendered result;
     result.statistics = render->run();
     result.image = render->image(true);
@@ -66,8 +67,9 @@ TEST_P(DroppedSamples, AreMissingFromTheirPixelsAndFromNothingElse) {
     int finite = 0;
     for (std::uint32_t s = 0; s < kSamples; ++s) {
       Diagnostics diagnostics;
-      const auto path = trace_path(bright, {.samples_per_pixel = kSamples, .seed = 4, .isa = test_isa()},
-                                   static_cast<int>(i % kSize), static_cast<int>(i / kSize), s, diagnostics);
+      const auto path = told(trace_path(bright, {.samples_per_pixel = kSamples, .seed = 4, .isa = test_isa()},
+                                        static_cast<int>(i % kSize), static_cast<int>(i / kSize), s),
+                             diagnostics);
       ASSERT_TRUE(path);
       if (!std::isfinite(path->radiance[0])) continue;
       ++finite, sum += double{path->radiance[0]};
@@ -86,8 +88,9 @@ TEST_P(DroppedSamples, AreToldAndTracedAgain) {
   ASSERT_FALSE(statistics.dropped.empty());
   for (const DroppedSample& dropped : statistics.dropped) {
     Diagnostics diagnostics;
-    const auto path = trace_path(bright, {.samples_per_pixel = kSamples, .seed = 4, .isa = test_isa()}, dropped.x,
-                                 dropped.y, dropped.sample, diagnostics);
+    const auto path = told(trace_path(bright, {.samples_per_pixel = kSamples, .seed = 4, .isa = test_isa()}, dropped.x,
+                                      dropped.y, dropped.sample),
+                           diagnostics);
     ASSERT_TRUE(path);
     EXPECT_TRUE(std::isinf(path->radiance[0]));
     ASSERT_EQ(path->vertices.at(0).light_samples.size(), 1u);

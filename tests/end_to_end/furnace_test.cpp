@@ -5,6 +5,7 @@
 #include "norrsken/image.h"
 #include "tests/end_to_end/param_name.h"
 #include "tests/end_to_end/scene_folder.h"
+#include "tests/told.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -47,7 +48,7 @@ TEST_F(EnvironmentAlone, ShowsItself) {
     write("sky.xml", std::string("<scene version=\"3.0.0\"><integrator type=\"") + integrator + "\"/>" + camera(kSize) +
                          R"(<emitter type="constant"><float name="radiance" value="2"/></emitter></scene>)");
     Diagnostics warnings;
-    const auto scene = Scene::load(path("sky.xml"), {}, warnings);
+    const auto scene = told(Scene::load(path("sky.xml"), {}), warnings);
     ASSERT_TRUE(scene);
     for (const char* accel : {"auto", "planes", "bvh", "embree", "moller_trumbore"}) {
       const auto picture =

@@ -12,6 +12,7 @@
 
 #include "norrsken/merge.h"
 #include "tests/end_to_end/scene_folder.h"
+#include "tests/told.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -106,7 +107,7 @@ class HostileFile : public SceneFolder, public ::testing::WithParamInterface<std
 
   Complaint load_scene(const std::string& file) const {
     Diagnostics diagnostics;
-    EXPECT_FALSE(Scene::load(file, {}, diagnostics).has_value());
+    EXPECT_FALSE(told(Scene::load(file, {}), diagnostics).has_value());
     return first_error(diagnostics);
   }
 
@@ -115,7 +116,7 @@ class HostileFile : public SceneFolder, public ::testing::WithParamInterface<std
     if (kind == "scene") return load_scene(file);
     if (kind == "merged") {
       MergedRender merged;
-      return {merge_renders({file}, false, merged).error, true};
+      return {merge_renders({file}).error(), true};
     }
     if (kind == "compared") {
       Image image;
@@ -127,7 +128,7 @@ class HostileFile : public SceneFolder, public ::testing::WithParamInterface<std
       options.threads = 1;
       options.checkpoint = file;
       const Scene scene = load_elements(camera(4) + R"(<shape type="sphere"/><emitter type="constant"/>)");
-      EXPECT_EQ(Render::create(scene, options, diagnostics), nullptr);
+      EXPECT_EQ(told(Render::create(scene, options), diagnostics), nullptr);
       return first_error(diagnostics);
     }
     std::string element = input.element;

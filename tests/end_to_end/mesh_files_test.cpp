@@ -3,6 +3,7 @@
 
 #include "norrsken/image.h"
 #include "tests/end_to_end/scene_folder.h"
+#include "tests/told.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -15,7 +16,7 @@ class MeshFiles : public SceneFolder {
   statistics::Picture picture_with_warnings(const std::string& elements, const std::string& accelerator) const {
     write("scene.xml", "<scene version=\"3.0.0\">" + elements + "</scene>");
     Diagnostics diagnostics;
-    const auto scene = Scene::load(path("scene.xml"), {}, diagnostics);
+    const auto scene = told(Scene::load(path("scene.xml"), {}), diagnostics);
     EXPECT_TRUE(scene.has_value() && !diagnostics.has_errors() && !diagnostics.all().empty());
     return picture_of(render_image(*scene, {.samples_per_pixel = 16, .accelerator = accelerator}));
   }

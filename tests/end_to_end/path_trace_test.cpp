@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/end_to_end/rendering.h"
+#include "tests/told.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -39,7 +40,7 @@ TEST_P(TracedPath, IsThatOfTheImage) {
     double mean[3] = {};
     for (std::uint32_t s = 0; s < kSamples; ++s) {
       Diagnostics diagnostics;
-      const auto path = trace_path(scene, options, x, y, s, diagnostics);
+      const auto path = told(trace_path(scene, options, x, y, s), diagnostics);
       ASSERT_TRUE(path);
       const Triple sum = sum_of_contributions(*path);
       for (std::size_t k = 0; k < 3; ++k) {
@@ -63,14 +64,14 @@ TEST_P(TracedPath, IsThatOfTheImage) {
 TEST(TracedPathErrors, AreTold) {
   Diagnostics diagnostics;
   const Scene scene = load("hexagon_room", {.parameters = {}, .width = 20, .height = 20});
-  EXPECT_FALSE(trace_path(scene, {}, 20, 3, 0, diagnostics));
+  EXPECT_FALSE(told(trace_path(scene, {}, 20, 3, 0), diagnostics));
   ASSERT_EQ(diagnostics.all().size(), 1u);
   EXPECT_EQ(diagnostics.all()[0].message, "there is no pixel 20, 3");
   EXPECT_EQ(diagnostics.all()[0].accepted, "0, 0 to 19, 19");
 
   Diagnostics of_lights;
   const Scene particles = load("hexagon_room", {.parameters = {}, .integrator = "ptracer", .width = 20, .height = 20});
-  EXPECT_FALSE(trace_path(particles, {}, 0, 0, 0, of_lights));
+  EXPECT_FALSE(told(trace_path(particles, {}, 0, 0, 0), of_lights));
   ASSERT_EQ(of_lights.all().size(), 1u);
   EXPECT_EQ(of_lights.all()[0].message, "the paths of integrator 'ptracer' begin at the lights and belong to no pixel");
 }
@@ -78,7 +79,7 @@ TEST(TracedPathErrors, AreTold) {
 TEST(TracedPathBsdf, TellsWhatStandsBehindABlend) {
   const Scene scene = load_test_scene("blend_plane.xml");
   Diagnostics diagnostics;
-  const auto path = trace_path(scene, {}, 4, 4, 0, diagnostics);
+  const auto path = told(trace_path(scene, {}, 4, 4, 0), diagnostics);
   ASSERT_TRUE(path);
   const PathVertex& v = path->vertices.at(0);
   EXPECT_TRUE(v.bsdf == "blendbsdf > diffuse" || v.bsdf == "blendbsdf > roughconductor") << v.bsdf;

@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "compile/compile_testing.h"
+#include "norrsken/plugins.h"
 #include "scene/base_parameters.h"
 #include "tests/end_to_end/format_parameters.h"
 #include "tests/end_to_end/plugin_parameters.h"
@@ -135,6 +136,80 @@ TEST_P(EveryPlugin, NamesItsParametersIfOneIsUnused) {
   const auto complaints = errors(context("") + R"(<float name="zzz" value="1"/>)");
   EXPECT_THAT(complaints, ElementsAre(fmt::format("error: unused parameter 'zzz' of {} '{}' [{}]", GetParam().kind,
                                                   GetParam().name, accepted.empty() ? "no parameters" : accepted)));
+}
+
+/// Whether a value of the type that a scene file writes may be that of the parameter.
+bool takes(const PluginParameter& parameter, std::string_view type) {
+  using Type = PluginParameter::Type;
+  if (type == "checkerboard") return parameter.may_be_texture;
+  switch (parameter.type) {
+    case Type::boolean:
+      return type == "boolean";
+    case Type::integer:
+      return type == "integer";
+    case Type::number:
+      return type == "float";
+    case Type::color:
+      return type == "rgb" || type == "float";
+    case Type::spectrum:
+      return type == "spectrum";
+    case Type::point:
+      return type == "point" || type == "vector";
+    case Type::transform:
+      return type == "transform";
+    case Type::texture:
+      return false;
+    default:
+      return type == "string";
+  }
+}
+
+/// What plugins() tells is what the readers take: all of it, and nothing else.
+TEST_P(EveryPlugin, IsToldWithItsParameters) {
+  static const std::vector<PluginInfo> all = plugins();
+  const auto told = std::ranges::find_if(
+      all, [](const PluginInfo& plugin) { return plugin.kind == GetParam().kind && plugin.name == GetParam().name; });
+  ASSERT_NE(told, all.end());
+  EXPECT_FALSE(told->text.empty());
+  EXPECT_EQ(told->parameters.size(), GetParam().rows.size());
+  for (const Row& row : GetParam().rows) {
+    const auto parameter = std::ranges::find(told->parameters, row.name, &PluginParameter::name);
+    ASSERT_NE(parameter, told->parameters.end()) << row.name;
+    EXPECT_TRUE(takes(*parameter, row.type)) << row.name << " " << row.type;
+  }
+  for (const PluginParameter& parameter : told->parameters) {
+    EXPECT_FALSE(parameter.text.empty()) << parameter.name;
+    const auto& required = GetParam().required;
+    const bool is_required = std::ranges::find(required, std::string_view(parameter.name)) != required.end();
+    EXPECT_EQ(parameter.is_required, is_required) << parameter.name;
+    EXPECT_TRUE(!parameter.is_required || parameter.fallback.empty()) << parameter.name;
+  }
+}
+
+TEST(Plugins, TellRangesDefaultsAndUnits) {
+  const auto all = plugins();
+  const auto find = [&](const char* kind, const char* name, const char* parameter) {
+    const auto plugin = std::ranges::find_if(all, [&](const auto& p) { return p.kind == kind && p.name == name; });
+    return *std::ranges::find(plugin->parameters, parameter, &PluginParameter::name);
+  };
+  const PluginParameter fov = find("sensor", "perspective", "fov");
+  EXPECT_EQ(fov.type, PluginParameter::Type::number);
+  EXPECT_EQ(fov.min, 0.0);
+  EXPECT_EQ(fov.max, 180.0);
+  EXPECT_FALSE(fov.min_belongs);
+  EXPECT_FALSE(fov.max_belongs);
+  EXPECT_EQ(fov.unit, "degrees");
+  const PluginParameter reflectance = find("bsdf", "diffuse", "reflectance");
+  EXPECT_EQ(reflectance.type, PluginParameter::Type::color);
+  EXPECT_EQ(reflectance.fallback, "0.5");
+  EXPECT_TRUE(reflectance.may_be_texture);
+  EXPECT_EQ(reflectance.max, 1.0);
+  EXPECT_THAT(find("sensor", "perspective", "fov_axis").choices,
+              ElementsAre("x", "y", "diagonal", "smaller", "larger"));
+  EXPECT_EQ(find("film", "hdrfilm", "width").fallback, "768");
+  EXPECT_EQ(find("shape", "sphere", "center").fallback, "0, 0, 0");
+  EXPECT_TRUE(find("shape", "ply", "filename").is_required);
+  EXPECT_FALSE(find("sampler", "independent", "seed").max.has_value());
 }
 
 std::set<std::string> names_of_format(const Plugin& plugin) {

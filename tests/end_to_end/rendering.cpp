@@ -1,4 +1,5 @@
 #include "tests/end_to_end/rendering.h"
+#include "tests/told.h"
 
 #include <cstdlib>
 #include <cstring>
@@ -18,7 +19,7 @@ namespace {
 
 Scene load(const std::string& path_or_name, const LoadOptions& options, Warnings warnings) {
   Diagnostics diagnostics;
-  auto scene = Scene::load(path_or_name, options, diagnostics);
+  auto scene = told(Scene::load(path_or_name, options), diagnostics);
   if (!scene || (warnings == Warnings::unexpected && !diagnostics.all().empty())) fail(diagnostics);
   return *scene;
 }
@@ -39,7 +40,7 @@ std::string test_isa() {
 Image render_image(const Scene& scene, RenderOptions options, bool layers) {
   if (options.isa == "auto") options.isa = test_isa();
   Diagnostics diagnostics;
-  const auto render = Render::create(scene, options, diagnostics);
+  const auto render = told(Render::create(scene, options), diagnostics);
   if (!render) fail(diagnostics);
   const RenderStatistics statistics = render->run();
   if (statistics.dropped_samples > 0) throw std::runtime_error("samples were dropped");

@@ -131,13 +131,20 @@ void Diagnostics::add(Diagnostic diagnostic, int& count) {
   }
   if (count < kMaxKept) {
     all_.push_back(std::move(diagnostic));
+    if (sink_) sink_(all_.back());
   } else if (count == kMaxKept) {
     all_.push_back({diagnostic.severity,
                     fmt::format("more than {} {}s, the rest are left out", kMaxKept, name_of(diagnostic.severity)),
                     {},
                     {}});
+    if (sink_) sink_(all_.back());
   }
   if (count < std::numeric_limits<int>::max()) ++count;
+}
+
+std::string Diagnostics::first_error() const {
+  const auto error = std::ranges::find(all_, Diagnostic::Severity::error, &Diagnostic::severity);
+  return error == all_.end() ? std::string() : error->message;
 }
 
 void Diagnostics::named_at(const std::string& file, const SourceLocation& place) {

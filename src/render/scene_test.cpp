@@ -9,8 +9,10 @@
 #include <fstream>
 
 #include "compile/compile.h"
+#include "render/scene_state.h"
 #include "scene/file_system.h"
 #include "tests/temporary_folder.h"
+#include "tests/told.h"
 
 namespace norrsken {
 namespace {
@@ -21,7 +23,7 @@ using ::testing::IsEmpty;
 
 Scene load_room(const LoadOptions& options = {}) {
   Diagnostics diagnostics;
-  auto scene = Scene::load("hexagon_room", options, diagnostics);
+  auto scene = told(Scene::load("hexagon_room", options), diagnostics);
   for (const Diagnostic& d : diagnostics.all()) ADD_FAILURE() << to_text(d);
   return scene.value();
 }
@@ -204,14 +206,14 @@ TEST(HexagonRoom, RefusesParametersThatItDoesNotHave) {
   Diagnostics diagnostics;
   LoadOptions options;
   options.parameters = {{"bounce", "2"}};
-  EXPECT_FALSE(Scene::load("hexagon_room", options, diagnostics));
+  EXPECT_FALSE(told(Scene::load("hexagon_room", options), diagnostics));
   ASSERT_EQ(diagnostics.error_count(), 1);
   EXPECT_THAT(to_text(diagnostics.all()[0]), HasSubstr("bounces"));
 }
 
 TEST(SceneLoad, NamesTheBuiltInScenesWhenThereIsNoSuchFile) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(Scene::load("hexagon_rom", {}, diagnostics));
+  EXPECT_FALSE(told(Scene::load("hexagon_rom", {}), diagnostics));
   ASSERT_EQ(diagnostics.all().size(), 1u);
   EXPECT_EQ(to_text(diagnostics.all()[0]),
             "error: there is no scene file or built-in scene 'hexagon_rom', did you mean 'hexagon_room'?\n"
@@ -225,7 +227,7 @@ TEST(SceneLoad, ReadsAFileFromDisk) {
       folder.write("scene.xml", R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm">
     <rfilter type="box"/></film></sensor><shape type="sphere"/><emitter type="point"/></scene>)");
   Diagnostics diagnostics;
-  const auto scene = Scene::load(path, {}, diagnostics);
+  const auto scene = told(Scene::load(path, {}), diagnostics);
   ASSERT_TRUE(scene);
   EXPECT_THAT(diagnostics.all(), IsEmpty());
   EXPECT_EQ(scene->info().spheres, 1u);
@@ -249,7 +251,7 @@ TEST(HexagonRoom, TakesItsSamplesPerPixelFromTheOptions) {
 
 std::string load_messages(const std::string& path_or_name, const LoadOptions& options) {
   Diagnostics diagnostics;
-  Scene::load(path_or_name, options, diagnostics);
+  told(Scene::load(path_or_name, options), diagnostics);
   std::string text;
   for (const Diagnostic& d : diagnostics.all()) text += to_text(d) + "\n";
   return text;
@@ -284,7 +286,7 @@ TEST(SceneLoad, SamplesPerPixelDoNotNeedAParameterThatIsUsed) {
   for (const std::string unused : {"", R"(<default name="spp" value="3"/>)"}) {
     const SceneOnDisk file(unused + rest);
     Diagnostics diagnostics;
-    const auto scene = Scene::load(file.path(), options, diagnostics);
+    const auto scene = told(Scene::load(file.path(), options), diagnostics);
     EXPECT_THAT(diagnostics.all(), IsEmpty());
     ASSERT_TRUE(scene);
     EXPECT_EQ(scene->info().samples_per_pixel, 9);
@@ -299,7 +301,7 @@ TEST(SceneLoad, TellsWhatIsWrongInTheOrderOfTheFile) {
   Diagnostics diagnostics;
   LoadOptions options;
   options.samples_per_pixel = 0;
-  EXPECT_FALSE(Scene::load(file.path(), options, diagnostics));
+  EXPECT_FALSE(told(Scene::load(file.path(), options), diagnostics));
   std::vector<int> lines;
   for (const Diagnostic& d : diagnostics.all()) lines.push_back(d.location.line);
   EXPECT_THAT(lines, ElementsAre(2, 3, 4, 0));
@@ -332,7 +334,7 @@ TEST(SceneLoad, AnEmptyPluginNameIsNotNoName) {
 
 TEST(SceneLoad, RefusesFolders) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(Scene::load(TemporaryFolder().string(), {}, diagnostics));
+  EXPECT_FALSE(told(Scene::load(TemporaryFolder().string(), {}), diagnostics));
   EXPECT_TRUE(diagnostics.has_errors());
 }
 
@@ -343,7 +345,7 @@ TEST(BuiltinScenes, EveryOneLoadsAndHasADescription) {
     EXPECT_THAT(scene.description, Not(IsEmpty())) << scene.name;
     EXPECT_THAT(scene.description, Not(HasSubstr("\n"))) << scene.name;
     Diagnostics diagnostics;
-    EXPECT_TRUE(Scene::load(scene.name, {}, diagnostics)) << scene.name;
+    EXPECT_TRUE(told(Scene::load(scene.name, {}), diagnostics)) << scene.name;
     for (const Diagnostic& d : diagnostics.all()) ADD_FAILURE() << to_text(d);
   }
 }
@@ -355,6 +357,19 @@ TEST(BuiltinFiles, AreThoseOfTheFolder) {
     const std::string on_disk(std::istreambuf_iterator<char>(file), {});
     EXPECT_EQ(contents, on_disk) << path;
   }
+}
+
+TEST(SceneState, LightsAreChosenByPlaceForPathsFromTheCameraAlone) {
+  std::string xml = R"(<scene version="3.0.0"><sensor type="perspective"/><shape type="sphere"/>)";
+  for (int i = 0; i < 40; ++i) xml += R"(<emitter type="point"/>)";
+  const auto scene = Scene::load(SceneSource::memory("a.xml", xml + "</scene>"));
+  ASSERT_TRUE(scene);
+  ViewOptions from_lights;
+  from_lights.integrator = "ptracer";
+  const auto other = scene->with(from_lights);
+  ASSERT_TRUE(other);
+  EXPECT_NE(scene->state().view(scene->frame(), {}).light_nodes, nullptr);
+  EXPECT_EQ(scene->state().view(other->frame(), {}).light_nodes, nullptr);
 }
 
 }  // namespace

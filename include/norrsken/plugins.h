@@ -1,0 +1,39 @@
+// What scenes may be made of: every plugin and its parameters, for programs that draw forms or check descriptions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace norrsken {
+
+struct PluginParameter {
+  /// What it is read as; `text`, `file` and `numbers` are strings in scene files. A number may be an integer there, too.
+  enum class Type { boolean, integer, number, text, file, numbers, color, spectrum, point, transform, texture };
+
+  std::string name;
+  Type type = Type::texture;
+  bool may_be_texture = false;       ///< a texture may stand in place of the number or colour
+  bool is_required = false;          ///< otherwise `fallback` is taken where it is not given
+  std::string fallback = {};         ///< as scene files write it; empty: none, or it depends on others
+  std::vector<std::string> choices;  ///< of a text that is one of some words
+  /// Of numbers, and of each component of a colour; empty: no bound but what can be calculated with.
+  std::optional<double> min = {}, max = {};
+  bool min_belongs = true, max_belongs = true;  ///< whether the bounds themselves are in range
+  std::string unit = {};                        ///< "degrees", "pixels", "scene units"; empty: none, or see the text
+  std::string text = {};                        ///< a line for people
+};
+
+struct PluginInfo {
+  std::string kind;  ///< as in Node: "bsdf", "shape", ...
+  std::string name;
+  std::string text;  ///< what it is, in a line
+  std::vector<PluginParameter> parameters;
+  std::vector<std::string> children;  ///< kinds of nodes that it takes beside its parameters
+};
+
+/// All of them, kind by kind. The parameters are what the plugins ask for when they are given nothing, so there is no second
+/// list of them; a range or a fallback that depends on other parameters is the one for their fallbacks.
+std::vector<PluginInfo> plugins();
+
+}  // namespace norrsken

@@ -1,0 +1,140 @@
+// mesh: triangles that the scene itself holds, in strings of numbers or in arrays of the program that makes it.
+//
+// Parameters
+//   positions     numbers, required: x y z of each vertex
+//   triangles     whole numbers, required: three vertices each, counted from 0, counter-clockwise seen from the front
+//   normals       numbers: x y z at each vertex, of any length
+//   texcoords     numbers: u v of each vertex
+//   mesh          all of these in one, with attributes for textures of type `mesh_attribute`: for programs alone
+//   to_world      transform (default identity); normals go through its inverse transpose
+//   face_normals  boolean (default false): shade flat, whatever normals there are
+//   flip_normals  boolean (default false): turn the surface inside out
+//
+// Departures: Mitsuba makes such meshes by Python alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "compile/plugins.h"
+#include "shape/mesh_host.h"
+
+namespace norrsken {
+namespace {
+
+/// Elements of N numbers out of a flat array.
+template <std::size_t N, class T>
+Array<std::array<T, N>> in_groups(std::span<const T> values) {
+  Array<std::array<T, N>> groups(values.size() / N);
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(N * i), N, groups[i].begin());
+  return groups;
+}
+
+/// Complaints about what a mesh is made of; `name` is the parameter that they point at.
+class Check {
+ public:
+  Check(Parameters& p, std::string_view name) : p_(p), name_(name) {}
+
+  void numbers(std::string_view what, std::span<const float> values, std::size_t expected) {
+    if (values.size() != expected) {
+      fail(fmt::format("the mesh has {} {}", values.size(), what), fmt::format("{} of them", expected));
+    } else if (!std::ranges::all_of(values,
+                                    [](float v) { return std::abs(static_cast<double>(v)) <= kMaxCoordinate; })) {
+      fail(fmt::format("some {} of the mesh are not finite, or too large", what),
+           fmt::format("{:g} to {:g}", -kMaxCoordinate, kMaxCoordinate));
+    }
+  }
+  void triangles(std::span<const std::uint32_t> triangles, std::size_t vertices) {
+    if (triangles.size() % 3 != 0)
+      fail(fmt::format("{} corners of the mesh's triangles", triangles.size()), "a multiple of 3");
+    const auto beyond = std::ranges::find_if(triangles, [vertices](std::uint32_t v) { return v >= vertices; });
+    if (beyond != triangles.end())
+      fail(fmt::format("a triangle of the mesh has vertex {} of {}", *beyond, vertices), "vertices counted from 0");
+  }
+  void attribute(const Mesh::Attribute& attribute, std::size_t vertices, std::size_t triangles) {
+    const bool per_face = attribute.name.starts_with("face_");
+    if (!per_face && !attribute.name.starts_with("vertex_"))
+      fail(fmt::format("attribute '{}' of the mesh", attribute.name), "a name that begins with vertex_ or face_");
+    if (attribute.channels != 1 && attribute.channels != 3)
+      return fail(fmt::format("attribute '{}' of the mesh has {} channels", attribute.name, attribute.channels),
+                  "1 or 3");
+    numbers("values of attribute '" + attribute.name + "'", attribute.values,
+            static_cast<std::size_t>(attribute.channels) * (per_face ? triangles : vertices));
+  }
+  bool good() const { return good_; }
+
+ private:
+  void fail(std::string message, std::string accepted) {
+    good_ = false;
+    p_.error(name_, std::move(message), std::move(accepted));
+  }
+
+  Parameters& p_;
+  std::string_view name_;
+  bool good_ = true;
+};
+
+/// The arrays, checked. Empty after a complaint.
+std::optional<MeshData> read_arrays(Parameters& p) {
+  p.require("positions", R"(<string name="positions" value="0 0 0  1 0 0  0 1 0"/>)");
+  p.require("triangles", R"(<string name="triangles" value="0 1 2"/>)");
+  const Array<float> positions = p.floats("positions", 3), normals = p.floats("normals", 3),
+                     texcoords = p.floats("texcoords", 2);
+  const Array<std::uint32_t> triangles = p.indices("triangles", 3);
+  if (positions.empty() || triangles.empty()) return std::nullopt;
+  Check corners(p, "triangles"), at_normals(p, "normals"), at_texcoords(p, "texcoords");
+  corners.triangles(triangles, positions.size() / 3);
+  if (!normals.empty()) at_normals.numbers("components of normals", normals, positions.size());
+  if (!texcoords.empty()) at_texcoords.numbers("texture coordinates", texcoords, positions.size() / 3 * 2);
+  if (!corners.good() || !at_normals.good() || !at_texcoords.good()) return std::nullopt;
+  MeshData mesh;
+  mesh.positions = in_groups<3, float>(positions);
+  mesh.normals = in_groups<3, float>(normals);
+  mesh.texcoords = in_groups<2, float>(texcoords);
+  mesh.triangles = in_groups<3, std::uint32_t>(triangles);
+  return mesh;
+}
+
+std::optional<MeshData> copy_mesh(const Mesh& given, Parameters& p) {
+  Check check(p, "mesh");
+  const std::size_t vertices = given.positions.size() / 3;
+  check.numbers("coordinates", given.positions, 3 * vertices);
+  check.triangles(given.triangles, vertices);
+  if (!given.normals.empty()) check.numbers("components of normals", given.normals, 3 * vertices);
+  if (!given.texcoords.empty()) check.numbers("texture coordinates", given.texcoords, 2 * vertices);
+  for (const Mesh::Attribute& attribute : given.attributes)
+    check.attribute(attribute, vertices, given.triangles.size() / 3);
+  if (!check.good()) return std::nullopt;
+  MeshData mesh;
+  mesh.positions = in_groups<3, float>(given.positions);
+  mesh.normals = in_groups<3, float>(given.normals);
+  mesh.texcoords = in_groups<2, float>(given.texcoords);
+  mesh.triangles = in_groups<3, std::uint32_t>(given.triangles);
+  for (const Mesh::Attribute& attribute : given.attributes) {
+    mesh.attributes.push_back({attribute.name,
+                               static_cast<std::uint32_t>(attribute.channels),
+                               attribute.name.starts_with("face_"),
+                               {attribute.values.begin(), attribute.values.end()}});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+std::optional<ShapeGeometry> compile_shape_mesh(Parameters& p, Builder& builder) {
+  std::optional<MeshData> mesh;
+  if (!p.has("mesh")) {
+    mesh = read_arrays(p);
+  } else if (const std::shared_ptr<const Mesh> given = p.mesh("mesh")) {
+    mesh = copy_mesh(*given, p);
+  }
+  return compile_mesh(p, builder, mesh ? *std::move(mesh) : MeshData{});
+}
+
+}  // namespace norrsken
