@@ -8,10 +8,10 @@ namespace norrsken::cli {
 namespace {
 
 struct FakeRender final : Render {
-  RenderStatistics run(const std::function<void(const RenderProgress&)>&) override { return {}; }
+  RenderStatistics run(const RenderCallbacks&) override { return {}; }
   void cancel() noexcept override { ++cancelled; }
   bool is_sampling() const noexcept override { return sampling; }
-  Image image(bool) const override { return {}; }
+  Image image(bool, const std::optional<ImageRegion>&) const override { return {}; }
   int cancelled = 0;
   bool sampling = true;
 };
