@@ -88,7 +88,9 @@ TEST(MitsubaXml, TransformSteps) {
   expect_near(apply(R"(<scale value="2"/>)", {1, 2, 3}), {2, 4, 6});
   expect_near(apply(R"(<scale x="2"/>)", {1, 2, 3}), {2, 2, 3});
   expect_near(apply(R"(<rotate z="1" angle="90"/>)", {1, 0, 0}), {0, 1, 0});
-  expect_near(apply(R"(<rotate value="0.57735026918962576 0.57735026918962576 0.57735026918962576" angle="120"/>)", {1, 0, 0}), {0, 1, 0});
+  expect_near(
+      apply(R"(<rotate value="0.57735026918962576 0.57735026918962576 0.57735026918962576" angle="120"/>)", {1, 0, 0}),
+      {0, 1, 0});
   expect_near(apply(R"(<matrix value="1 2 3 4  5 6 7 8  9 10 11 12  0 0 0 1"/>)", {1, 0, 0}), {5, 13, 21});
   expect_near(apply(R"(<matrix value="1 2 3  4 5 6  7 8 9"/>)", {0, 1, 0}), {2, 5, 8});
 }

@@ -56,7 +56,7 @@ TEST_F(FindFile, TellsWhatIsThereInstead) {
   EXPECT_EQ(said("Textures/wood.PNG"), none + "'Textures/wood.PNG' (from '$f'), but there is 'textures/Wood.png'");
   EXPECT_EQ(said("textures\\wood.png"), none + "'textures\\wood.png' (from '$f'), but there is 'textures/Wood.png'");
   EXPECT_EQ(said("./x/../textures/wood.png"),
-            none + "'./x/../textures/wood.png' (from '$f'), but there is './x/../textures/Wood.png'");
+            none + "'./x/../textures/wood.png' (from '$f'), but there is 'textures/Wood.png'");
   EXPECT_EQ(said("/home/me/b.obj"), none + "'/home/me/b.obj' (from '$f'), but there is 'b.obj'");
   EXPECT_EQ(said("C:\\Users\\me\\b.obj"), none + "'C:\\Users\\me\\b.obj' (from '$f'), but there is 'b.obj'");
   EXPECT_EQ(said("textures/Wood.jpg"), none + "'textures/Wood.jpg' (from '$f'), but there is 'textures/Wood.png'");

@@ -25,7 +25,8 @@ std::vector<float> plane(const Compiled& c, std::size_t triangle) {
 std::vector<float> sphere_of(const Compiled& c) { return plane(c, 0); }
 
 const std::string kShapes =
-    "bsplinecurve, cube, cylinder, disk, instance, linearcurve, mesh, obj, ply, rectangle, sdfgrid, serialized, shapegroup, "
+    "bsplinecurve, cube, cylinder, disk, instance, linearcurve, mesh, obj, ply, rectangle, sdfgrid, serialized, "
+    "shapegroup, "
     "sphere";
 
 TEST(Rectangle, IsTheSquareThatFacesZ) {

@@ -145,7 +145,7 @@ TEST_P(Accelerators, ShowTheSame) {
 TEST_P(Accelerators, MergeWhatDiffersInNothing) {
   write_scene();
   const Scene scene = load(path("scene.xml"), {}, Warnings::expected);
-  EXPECT_EQ(merge_triangles(scene.tables().tables).size(), GetParam().polygons);
+  EXPECT_EQ(merge_triangles(scene.tables().tables, variation_of(scene.frame().layers)).size(), GetParam().polygons);
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, Accelerators, ::testing::ValuesIn(kCases), kParamName);
