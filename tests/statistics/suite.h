@@ -123,6 +123,7 @@ inline constexpr Family kSuite[] = {
     {"agreement.samplers", kPerRoom},
     {"agreement.odd_samples", kPerRoom},
     {"agreement.accelerator.planes", kPerRoom},
+    {"agreement.accelerator.bvh", kPerRoom},
     {"agreement.accelerator.embree", kPerRoom},
     {"agreement.isa.sse4.2", kPerRoom},
     {"agreement.isa.avx2", kPerRoom},
