@@ -1,13 +1,17 @@
 #include "interrupt.h"
 
 #include <atomic>
+#include <cstdint>
+#include <ctime>
 
 namespace norrsken::cli {
 namespace {
 
 std::atomic<Render*> g_target = nullptr;
-std::atomic<bool> g_requested = false, g_insisted = false, g_saving = false;
-static_assert(std::atomic<Render*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
+std::atomic<bool> g_requested = false, g_saving = false;
+std::atomic<std::int64_t> g_first = 0;  // of a person's signals, in nanoseconds; 0: none has come
+static_assert(std::atomic<Render*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
+                  std::atomic<std::int64_t>::is_always_lock_free,
               "a signal handler may only touch lock-free atomics");
 
 /// Signals of somebody who may mean it when they come again.
@@ -15,8 +19,20 @@ bool is_from_a_person(int signal_number) {
   return signal_number == SIGINT || signal_number == SIGTERM || signal_number == SIGHUP;
 }
 
+/// `timeout` and other wrappers send a signal to the program and to its group, and a terminal may add its own: what comes
+/// within this time is the same one.
+constexpr std::int64_t kOneSignal = 300'000'000;  // nanoseconds
+
+bool comes_again() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  const std::int64_t now = std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+  std::int64_t first = 0;
+  return !g_first.compare_exchange_strong(first, now) && now - first > kOneSignal;
+}
+
 extern "C" void norrsken_on_interrupt(int signal_number) {
-  const bool again = is_from_a_person(signal_number) && g_insisted.exchange(true);
+  const bool again = is_from_a_person(signal_number) && comes_again();
   g_requested.store(true);
   if (g_saving.load()) return;
   Render* render = g_target.load();

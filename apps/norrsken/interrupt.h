@@ -24,8 +24,8 @@ class SignalHandlers {
   std::array<struct sigaction, kSignals.size()> old_{};
 };
 
-/// While it lives, the first signal cancels `render`, also one that came earlier, and a second SIGINT, SIGTERM or SIGHUP
-/// kills the program as long as the rendering takes samples: not while it looks at them, and not once it is over.
+/// While it lives, the first signal cancels `render`, also one that came earlier, and a second SIGINT, SIGTERM or SIGHUP,
+/// if it comes 0.3 s later or more, kills the program as long as the rendering takes samples: not while it looks at them, and not once it is over.
 /// One at a time.
 class InterruptGuard {
  public:

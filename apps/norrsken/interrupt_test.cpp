@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 namespace norrsken::cli {
 namespace {
@@ -26,12 +28,25 @@ void cancel_once(int signal_number) {
   finish(render.cancelled == 1 && interrupt_requested());
 }
 
+// Longer than wrappers take to send one signal twice.
+void wait_like_a_person() { std::this_thread::sleep_for(std::chrono::milliseconds(350)); }
+
 void interrupt_twice() {
   FakeRender render;
   const InterruptGuard guard(render);
   std::raise(SIGTERM);
+  wait_like_a_person();
   std::raise(SIGINT);
   finish(false);
+}
+
+void interrupt_twice_at_once() {
+  FakeRender render;
+  const InterruptGuard guard(render);
+  std::raise(SIGINT);
+  std::raise(SIGINT);
+  std::raise(SIGTERM);
+  finish(interrupt_requested());
 }
 
 void interrupt_again_when_no_samples_are_taken() {
@@ -39,6 +54,7 @@ void interrupt_again_when_no_samples_are_taken() {
   const InterruptGuard guard(render);
   std::raise(SIGINT);
   render.sampling = false;
+  wait_like_a_person();
   std::raise(SIGINT);
   std::raise(SIGTERM);
   finish(render.cancelled == 1);
@@ -50,6 +66,7 @@ void interrupt_while_saving() {
   std::raise(SIGINT);
   {
     const SavingGuard saving;
+    wait_like_a_person();
     std::raise(SIGINT);
     std::raise(SIGHUP);
   }
@@ -93,6 +110,10 @@ TEST(InterruptDeathTest, TheFirstSignalCancelsAndTheSecondKills) {
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM})
     EXPECT_EXIT(cancel_once(signal_number), testing::ExitedWithCode(0), "") << signal_number;
   EXPECT_EXIT(interrupt_twice(), testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(InterruptDeathTest, WhatWrappersSendTwiceIsOneSignal) {
+  EXPECT_EXIT(interrupt_twice_at_once(), testing::ExitedWithCode(0), "");
 }
 
 TEST(InterruptDeathTest, WarningsOfBatchSystemsDiscardNothingHoweverOftenTheyCome) {

@@ -219,7 +219,7 @@ TEST_F(NothingLost, ImpatienceDiscardsNoLargeImage) {
   const Words large = {"render",       "hexagon_room", "-Dshadow_rays=1",    "--size", "2000x1000", "--spp", "1000000",
                        "--checkpoint", "c.ckpt",       "--checkpoint-every", "0.05s",  "-o",        "a.png"};
   const ProcessResult result =
-      run(large, {.signals = {SIGINT, SIGINT, SIGTERM}, .signal_delay = milliseconds(50), .signal_when = [this] {
+      run(large, {.signals = {SIGINT, SIGINT, SIGTERM}, .signal_delay = milliseconds(350), .signal_when = [this] {
                     return fs::exists(folder_ / "c.ckpt");
                   }});
   EXPECT_EQ(result.status, 77) << result.err;
