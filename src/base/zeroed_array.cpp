@@ -4,6 +4,8 @@
 
 #include <new>
 
+#include "base/huge_pages.h"
+
 namespace norrsken {
 
 ZeroedMemory::ZeroedMemory(std::size_t bytes) : bytes_(bytes) {
@@ -13,7 +15,7 @@ ZeroedMemory::ZeroedMemory(std::size_t bytes) : bytes_(bytes) {
   data_ = data;
   // Fewer and larger pages, where there are any; without them all is well, too.
   constexpr std::size_t kLargePages = std::size_t{4} << 20;
-  if (bytes >= kLargePages) madvise(data, bytes, MADV_HUGEPAGE);
+  if (bytes >= kLargePages) ask_for_huge_pages(data, bytes);
 }
 
 ZeroedMemory::~ZeroedMemory() {

@@ -174,7 +174,7 @@ class Builder {
   /// The sensor that is chosen, with what `view` says otherwise of it; null if there is none, or after a complaint.
   std::shared_ptr<const Node> sensor_node(Parameters& scene, const ViewOptions& view);
   void compile_sampler(Parameters& sensor, const ViewOptions& view);
-  void compile_camera(Parameters& sensor);
+  void compile_camera(Parameters& sensor, CameraRecord (*compile)(Parameters&, Builder&, const FilmSettings&));
   /// That of a scene without a sensor, once its bounds are known.
   void compile_default_camera();
   /// `place`: where the film's size comes from.
@@ -202,6 +202,8 @@ class Builder {
     const std::optional<std::string>& plugin;
     const std::optional<Node>& node;
   };
+  template <class Function>
+  auto compile_node(const Node& node, std::span<const Plugin<Function>> table, bool tolerates = false);
   template <class Function>
   auto compile_chosen(const Node::Child* child, const char* kind, const char* fallback, const Replacement& replacement,
                       std::span<const Plugin<Function>> table, std::string& plugin_name);

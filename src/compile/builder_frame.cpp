@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "compile/builder.h"
+#include "compile/crop_window.h"
 #include "compile/default_sensor.h"
 #include "compile/plugins.h"
 #include "compile/scene_children.h"
@@ -47,37 +48,37 @@ void take_film_and_sampler(const Node& from, Node& to) {
 
 }  // namespace
 
+/// Calls the node's plugin. What of the node it does not ask for is an error, unless `tolerates` it.
+template <class Function>
+auto Builder::compile_node(const Node& node, std::span<const Plugin<Function>> table, bool tolerates) {
+  decltype(table[0].compile(std::declval<Parameters&>(), *this)) settings;
+  if (const auto* plugin = find_plugin(table, node, diagnostics_)) {
+    Parameters p = parameters(node);
+    settings = plugin->compile(p, *this);
+    if (!tolerates) p.finish();
+    describe(node, {});
+  }
+  return settings;
+}
+
 IntegratorSettings Builder::integrator(const Node& node) {
   IntegratorSettings settings;
   if (integrator_depth_ == kMaxIntegratorDepth) {
     diagnostics_.error(node.location, fmt::format("integrators are nested more than {} deep", kMaxIntegratorDepth),
                        fmt::format("up to {} inside each other", kMaxIntegratorDepth));
-  } else if (const auto* plugin = find_plugin(integrator_plugins(), node, diagnostics_)) {
+  } else {
     ++integrator_depth_;
-    Parameters p = parameters(node);
-    settings = plugin->compile(p, *this);
-    p.finish();
-    describe(node, {});
+    settings = compile_node(node, integrator_plugins());
     --integrator_depth_;
   }
   return settings;
 }
 
 FilterRecord Builder::rfilter(Parameters& film) {
-  Node default_filter;
-  default_filter.kind = "rfilter";
-  default_filter.plugin = "gaussian";
+  Node default_filter("rfilter", "gaussian");
   default_filter.location = film.node().location;
   const Node::Child* child = film.child("rfilter");
-  const Node& node = child ? *child->node : default_filter;
-  FilterRecord filter;
-  if (const auto* plugin = find_plugin(rfilter_plugins(), node, diagnostics_)) {
-    Parameters p = parameters(node);
-    filter = plugin->compile(p, *this);
-    p.finish();
-    describe(node, {});
-  }
-  return filter;
+  return compile_node(child ? *child->node : default_filter, rfilter_plugins());
 }
 
 /// Compiles `child`, or the plugin `fallback` if there is none. A plugin that replaces another takes the node's parameters,
@@ -100,22 +101,13 @@ auto Builder::compile_chosen(const Node::Child* child, const char* kind, const c
     node.plugin = *replacement.plugin;
     node.plugin_location = {};
   }
-  decltype(table[0].compile(std::declval<Parameters&>(), *this)) settings;
   plugin_name = node.plugin;
-  if (const auto* plugin = find_plugin(table, node, diagnostics_)) {
-    Parameters p = parameters(node);
-    settings = plugin->compile(p, *this);
-    if (!replaced) p.finish();
-    describe(node, {});
-  }
-  return settings;
+  return compile_node(node, table, /*tolerates=*/replaced);
 }
 
 FilmSettings Builder::film(Parameters& sensor, const ViewOptions& view, SourceLocation& place) {
   FilmSettings settings;
-  Node default_film;
-  default_film.kind = "film";
-  default_film.plugin = "hdrfilm";
+  Node default_film("film", "hdrfilm");
   default_film.location = sensor.node().location;
   const Node::Child* child = sensor.child("film");
   const Node& node = child ? *child->node : default_film;
@@ -132,9 +124,8 @@ FilmSettings Builder::film(Parameters& sensor, const ViewOptions& view, SourceLo
     if (side != *value) {
       diagnostics_.error({}, fmt::format("{} {} is out of range", name, *value), fmt::format("1 to {}", kMaxFilmSide));
     }
-    const auto scaled = [&](int x) { return static_cast<int>(std::lround(static_cast<double>(x) * side / full)); };
-    const int begin = std::min(scaled(offset), side - 1), end = std::max(scaled(offset + size), begin + 1);
-    full = side, offset = begin, size = end - begin;
+    scale_window(offset, size, full, side);
+    full = side;
   };
   override_side("width", view.width, settings.full_width, settings.crop_x, settings.width);
   override_side("height", view.height, settings.full_height, settings.crop_y, settings.height);
@@ -227,18 +218,19 @@ std::shared_ptr<const Node> Builder::sensor_node(Parameters& scene, const ViewOp
 
 void Builder::compile_sensor(Parameters& scene, const ViewOptions& view, bool reserve) {
   sensor_ = sensor_node(scene, view);
-  if (!sensor_ || !find_plugin(sensor_plugins(), *sensor_, diagnostics_)) return;
+  if (!sensor_) return;
+  const auto* plugin = find_plugin(sensor_plugins(), *sensor_, diagnostics_);
+  if (!plugin) return;
   Parameters p = parameters(*sensor_);
   SourceLocation film_place;
   tables().film = film(p, view, film_place);
   compile_sampler(p, view);
   if (!diagnostics_.has_errors()) measure_film(film_place, reserve);
-  if (!default_sensor_) compile_camera(p);
+  if (!default_sensor_) compile_camera(p, plugin->compile);
 }
 
-void Builder::compile_camera(Parameters& sensor) {
-  const auto* plugin = find_plugin(sensor_plugins(), sensor.node(), diagnostics_);
-  tables().camera = plugin->compile(sensor, *this, tables().film);
+void Builder::compile_camera(Parameters& sensor, CameraRecord (*compile)(Parameters&, Builder&, const FilmSettings&)) {
+  tables().camera = compile(sensor, *this, tables().film);
   view_place_ = sensor.where("far_clip");
   refuse_kinds_to_come(sensor);
   sensor.finish();
@@ -250,7 +242,7 @@ void Builder::compile_default_camera() {
   if (!bounds.empty()) look_at_box(*default_sensor_, bounds.lower, bounds.upper);
   Parameters p = parameters(*default_sensor_);
   for (const char* kind : {"film", "sampler"}) p.children(kind);
-  compile_camera(p);
+  compile_camera(p, find_plugin(sensor_plugins(), *default_sensor_, diagnostics_)->compile);
   const float* origin = tables().camera.origin;
   diagnostics_.note(default_sensor_->location,
                     fmt::format("the scene has no sensor: the picture is taken from ({:.4g}, {:.4g}, {:.4g}) along +z, "

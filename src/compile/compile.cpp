@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "compile/builder.h"
+#include "compile/crop_window.h"
 #include "scene/check_description.h"
 #include "scene/within_memory.h"
 
@@ -41,16 +42,10 @@ ViewOptions merged(const ViewOptions& before, const ViewOptions& next, const Fil
     view.camera.push_back(property);
   }
   // Another size shows the same part of the picture.
-  const auto scaled = [](int& offset, int& size, int from, const std::optional<int>& to) {
-    if (!to || *to < 1) return;
-    const auto at = [&](int x) { return static_cast<int>(std::lround(static_cast<double>(x) * *to / from)); };
-    const int begin = std::min(at(offset), *to - 1), end = std::max(at(offset + size), begin + 1);
-    offset = begin, size = end - begin;
-  };
-  if (view.crop) {
-    scaled(view.crop->x, view.crop->width, film.full_width, next.width);
-    scaled(view.crop->y, view.crop->height, film.full_height, next.height);
-  }
+  if (view.crop && next.width.value_or(0) >= 1)
+    scale_window(view.crop->x, view.crop->width, film.full_width, *next.width);
+  if (view.crop && next.height.value_or(0) >= 1)
+    scale_window(view.crop->y, view.crop->height, film.full_height, *next.height);
   if (next.crop) view.crop = next.crop;
   if (next.width) view.width = next.width;
   if (next.height) view.height = next.height;

@@ -86,13 +86,9 @@ std::optional<StoredImage> ImageStore::of(Parameters& p, bool raw) {
 }
 
 std::optional<StoredImage> ImageStore::copy(const Image& image, Parameters& p) {
-  const auto find = [&](const char* name) {
-    const auto found = std::ranges::find(image.channels, name, &Channel::name);
-    return found == image.channels.end() ? nullptr : &*found;
-  };
   std::vector<const Channel*> channels;
-  for (const char* name : {"R", "G", "B"}) channels.push_back(find(name));
-  if (std::ranges::find(channels, nullptr) != channels.end()) channels = {find("Y")};
+  for (const char* name : {"R", "G", "B"}) channels.push_back(image.find(name));
+  if (std::ranges::find(channels, nullptr) != channels.end()) channels = {image.find("Y")};
   if (channels.front() == nullptr) {
     p.error("image", "'image' has no colours", "channels R, G and B, or Y");
     return std::nullopt;

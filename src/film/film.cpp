@@ -19,6 +19,12 @@ std::size_t pixel_count(const FilmSettings& settings) {
 
 }  // namespace
 
+FilmRegion intersection(const FilmRegion& a, const FilmRegion& b) {
+  const std::uint32_t x0 = std::max(a.x0, b.x0), y0 = std::max(a.y0, b.y0);
+  const std::uint32_t x1 = std::min(a.x0 + a.width, b.x0 + b.width), y1 = std::min(a.y0 + a.height, b.y0 + b.height);
+  return {x0, y0, x1 > x0 ? x1 - x0 : 0, y1 > y0 ? y1 - y0 : 0};
+}
+
 std::vector<FeatureLayer> standard_features() {
   constexpr const char* kNames[] = {"depth.Z",  "normal.X", "normal.Y", "normal.Z",
                                     "albedo.R", "albedo.G", "albedo.B", "id"};

@@ -25,6 +25,9 @@ struct FilmRegion {
   std::uint32_t x0 = 0, y0 = 0, width = 0, height = 0;
 };
 
+/// What lies in both.
+FilmRegion intersection(const FilmRegion& a, const FilmRegion& b);
+
 /// Totals over pixels and channels, for the error of the whole image.
 struct FilmError {
   double mean_sum = 0;

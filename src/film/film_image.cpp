@@ -49,7 +49,10 @@ FilmImage::FilmImage(const Film& film, const FilmRegion& region, bool statistics
   }
   for (const std::string& name : film.layers().image_copies) {
     for (const char* channel : {"R", "G", "B", "A"}) {
-      if (image_.find(channel)) add(name + "." + channel);
+      const Channel* source = image_.find(channel);
+      if (source == nullptr) continue;
+      const auto from = static_cast<std::size_t>(source - image_.channels.data());
+      copies_.emplace_back(from, add(name + "." + channel));
     }
   }
   for (const std::string& name : film.layers().moments) {
@@ -68,11 +71,9 @@ std::size_t FilmImage::add(const std::string& name) {
 }
 
 void FilmImage::take(const FilmRegion& part) {
-  const std::uint32_t x0 = std::max(part.x0, needed_.x0), y0 = std::max(part.y0, needed_.y0);
-  const std::uint32_t x1 = std::min(part.x0 + part.width, needed_.x0 + needed_.width),
-                      y1 = std::min(part.y0 + part.height, needed_.y0 + needed_.height);
-  for (std::uint32_t y = y0; y < y1; ++y) {
-    for (std::uint32_t x = x0; x < x1; ++x) {
+  const FilmRegion wanted = intersection(part, needed_);
+  for (std::uint32_t y = wanted.y0; y < wanted.y0 + wanted.height; ++y) {
+    for (std::uint32_t x = wanted.x0; x < wanted.x0 + wanted.width; ++x) {
       take_pixel(std::uint64_t{y} * film_.width() + x, std::size_t{y - needed_.y0} * needed_.width + (x - needed_.x0));
     }
   }
@@ -107,17 +108,6 @@ void FilmImage::take_pixel(std::uint64_t pixel, std::size_t to) {
     put(features_[i], film_.feature(film_.layers().features[i].feature, pixel, feature_samples_));
 }
 
-void FilmImage::add_copies() {
-  for (const std::string& name : film_.layers().image_copies) {
-    for (const char* channel : {"R", "G", "B", "A"}) {
-      if (const Channel* source = image_.find(channel)) {
-        std::vector<float> values = source->values;
-        image_.channel(name + "." + channel).values = std::move(values);
-      }
-    }
-  }
-}
-
 void FilmImage::crop() {
   const std::size_t dx = region_.x0 - needed_.x0, dy = region_.y0 - needed_.y0;
   for (Channel& channel : image_.channels) {
@@ -137,7 +127,7 @@ Image FilmImage::finish() && {
     image_.channels[interval_[c]].values = confidence_intervals(
         needed_.width, needed_.height, image_.channels[variance_[c]].values, image_.channels[samples_].values);
   }
-  add_copies();
+  for (const auto& [from, to] : copies_) image_.channels[to].values = image_.channels[from].values;
   if (needed_.width != region_.width || needed_.height != region_.height) crop();
   return std::move(image_);
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "film/film.h"
@@ -28,7 +29,6 @@ class FilmImage {
  private:
   std::size_t add(const std::string& name);
   void take_pixel(std::uint64_t pixel, std::size_t to);
-  void add_copies();
   void crop();
 
   const Film& film_;
@@ -39,8 +39,9 @@ class FilmImage {
   // Of channels, their places in the image.
   std::array<std::size_t, 3> color_{}, variance_{}, error_{}, interval_{};
   std::size_t samples_ = 0, alpha_ = 0;
-  std::vector<std::size_t> moments_;   ///< X, m2_X, Y, m2_Y, ... of each layer
-  std::vector<std::size_t> features_;  ///< of each layer
+  std::vector<std::pair<std::size_t, std::size_t>> copies_;  ///< of layers that are the image again: from, to
+  std::vector<std::size_t> moments_;                         ///< X, m2_X, Y, m2_Y, ... of each layer
+  std::vector<std::size_t> features_;                        ///< of each layer
 };
 
 }  // namespace norrsken

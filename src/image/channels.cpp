@@ -73,14 +73,16 @@ ColorChannels colors_of_layers(const Names& names) {
 }  // namespace
 
 ColorChannels color_channels(const Names& names) {
-  const auto has = [&](const char* last) { return !channels_of(names, "", {last}).empty(); };
-  const std::vector<std::size_t> grey = channels_of(names, "", {"Y"});
+  const auto has_all = [&](std::initializer_list<std::string_view> last) {
+    return !channels_of(names, "", last).empty();
+  };
   // An image that belongs to no layer is the image, grey ones too.
-  const bool is_grey_image = !grey.empty() && channels_of(names, "", {"R", "G", "B"}).empty() &&
-                             channels_of(names, "", {"X", "Y", "Z"}).empty();
-  if (is_grey_image)
+  const std::vector<std::size_t> grey = channels_of(names, "", {"Y"});
+  if (!grey.empty() && !has_all({"R", "G", "B"}) && !has_all({"X", "Y", "Z"}))
     return {grey, false,
-            has("RY") || has("BY") ? "has colours in channels RY and BY, which are not read: Y is taken for grey" : ""};
+            has_all({"RY"}) || has_all({"BY"})
+                ? "has colours in channels RY and BY, which are not read: Y is taken for grey"
+                : ""};
   if (ColorChannels colors = colors_of_layers(names); !colors.numbers.empty()) return colors;
   if (names.size() >= 3) {
     const std::vector<std::size_t> first = {0, 1, 2};

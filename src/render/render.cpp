@@ -77,12 +77,6 @@ SampleRange sample_range(const Scene& scene, const RenderOptions& options) {
   return {0, static_cast<std::uint32_t>(count)};
 }
 
-/// Planes hold polygons, which do not know the triangles that they were merged from.
-bool counts_triangles(const Scene& scene) {
-  return std::ranges::any_of(scene.frame().layers.features,
-                             [](const FeatureLayer& layer) { return layer.feature == kFeaturePrimitive; });
-}
-
 /// Scenes that name layers get them of as many samples as the image, others of the first few of all.
 SampleRange feature_range(const Scene& scene, const RenderOptions& options, SampleRange samples) {
   if (needs_all_features(scene)) {
@@ -380,8 +374,10 @@ Result<std::unique_ptr<Render>> Render::create(const Scene& scene, const RenderO
   if (options.adaptive && scene.frame().integrator.from_lights) {
     diagnostics.error({}, "adaptive sampling with paths that begin at the lights", "another integrator than ptracer");
   }
+  // Planes hold polygons, which do not know the triangles that they were merged from.
+  const bool counts_triangles = variation_of(scene.frame().layers) == Variation::by_triangle;
   const AccelKind accel = choose_accel(options.accelerator, scene.tables().tables,
-                                       kernels != nullptr ? kernels->lanes : 1, counts_triangles(scene), diagnostics);
+                                       kernels != nullptr ? kernels->lanes : 1, counts_triangles, diagnostics);
   if (options.samples && options.samples->first >= options.samples->end) {
     diagnostics.error({}, fmt::format("samples {} to {}", options.samples->first, options.samples->end),
                       "a first sample, and a greater one behind the last");

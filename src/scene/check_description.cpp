@@ -15,10 +15,6 @@ namespace {
 
 constexpr int kMaxDepth = 100;  // as in files
 
-std::string described(const Node& node) {
-  return node.plugin.empty() ? node.kind : fmt::format("{} {}", node.kind, quoted(node.plugin));
-}
-
 class Check {
  public:
   explicit Check(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -26,7 +22,7 @@ class Check {
   /// Returns how deep the node is below it; 0 after a complaint.
   int visit(const Node& node) {
     if (const auto known = depth_.find(&node); known != depth_.end()) {
-      if (known->second == kOpen) fail(fmt::format("{} stands inside of itself", described(node)), "a tree of nodes");
+      if (known->second == kOpen) fail(fmt::format("{} stands inside of itself", name_of(node)), "a tree of nodes");
       return std::max(known->second, 0);
     }
     depth_[&node] = kOpen;
@@ -39,7 +35,7 @@ class Check {
       for (const Node::Child& child : node.children) {
         if (!good_) break;
         if (!child.node) {
-          fail(fmt::format("a child of {} is null", described(node)), "a node");
+          fail(fmt::format("a child of {} is null", name_of(node)), "a node");
         } else {
           deepest = std::max(deepest, visit(*child.node) + 1);
         }
@@ -71,7 +67,7 @@ class Check {
       if (samples.size() > 1 && !(samples[i].first > (i == 0 ? 0 : samples[i - 1].first))) ascends = false;
     }
     if (!ascends)
-      fail(fmt::format("spectrum {} of {} is malformed", quoted(property.name), described(node)),
+      fail(fmt::format("spectrum {} of {} is malformed", quoted(property.name), name_of(node)),
            "one value, or finite values at ascending wavelengths above 0 nm");
   }
 

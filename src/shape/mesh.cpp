@@ -36,6 +36,16 @@ Array<std::array<T, N>> in_groups(std::span<const T> values) {
   return groups;
 }
 
+MeshData in_groups(std::span<const float> positions, std::span<const float> normals, std::span<const float> texcoords,
+                   std::span<const std::uint32_t> triangles) {
+  MeshData mesh;
+  mesh.positions = in_groups<3>(positions);
+  mesh.normals = in_groups<3>(normals);
+  mesh.texcoords = in_groups<2>(texcoords);
+  mesh.triangles = in_groups<3>(triangles);
+  return mesh;
+}
+
 /// Complaints about what a mesh is made of; `name` is the parameter that they point at.
 class Check {
  public:
@@ -93,12 +103,7 @@ std::optional<MeshData> read_arrays(Parameters& p) {
   if (!normals.empty()) at_normals.numbers("components of normals", normals, positions.size());
   if (!texcoords.empty()) at_texcoords.numbers("texture coordinates", texcoords, positions.size() / 3 * 2);
   if (!corners.good() || !at_normals.good() || !at_texcoords.good()) return std::nullopt;
-  MeshData mesh;
-  mesh.positions = in_groups<3, float>(positions);
-  mesh.normals = in_groups<3, float>(normals);
-  mesh.texcoords = in_groups<2, float>(texcoords);
-  mesh.triangles = in_groups<3, std::uint32_t>(triangles);
-  return mesh;
+  return in_groups(positions, normals, texcoords, triangles);
 }
 
 std::optional<MeshData> copy_mesh(const Mesh& given, Parameters& p) {
@@ -111,11 +116,7 @@ std::optional<MeshData> copy_mesh(const Mesh& given, Parameters& p) {
   for (const Mesh::Attribute& attribute : given.attributes)
     check.attribute(attribute, vertices, given.triangles.size() / 3);
   if (!check.good()) return std::nullopt;
-  MeshData mesh;
-  mesh.positions = in_groups<3, float>(given.positions);
-  mesh.normals = in_groups<3, float>(given.normals);
-  mesh.texcoords = in_groups<2, float>(given.texcoords);
-  mesh.triangles = in_groups<3, std::uint32_t>(given.triangles);
+  MeshData mesh = in_groups(given.positions, given.normals, given.texcoords, given.triangles);
   for (const Mesh::Attribute& attribute : given.attributes) {
     mesh.attributes.push_back({attribute.name,
                                static_cast<std::uint32_t>(attribute.channels),

@@ -16,9 +16,6 @@ constexpr int kBins = 16;
 /// From this depth on references are halved by number, whatever the heuristic says: 2^32 of them end within 32 levels.
 constexpr std::uint32_t kHeuristicLevels = kBvhMostLevels - 33;
 
-/// Fewer references are not worth a thread of their own.
-constexpr std::uint32_t kWorthAThread = 16'384;
-
 /// Along the axes; the fourth component is idle.
 using Float4 = float __attribute__((vector_size(16)));
 
@@ -93,7 +90,7 @@ class TreeBuilder {
     const std::uint32_t middle = partition(begin, end, depth, middles);
     const auto left = [&](int mine) { build(node + 1, begin, middle, depth + 1, mine); };
     const auto right = [&](int mine) { build(node + 2 * (middle - begin), middle, end, depth + 1, mine); };
-    fork(n.count < kWorthAThread ? 1 : threads, left, right);
+    fork(threads_worth(n.count, threads), left, right);
   }
 
  private:

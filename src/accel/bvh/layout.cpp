@@ -15,7 +15,6 @@ namespace {
 /// What a ray pays for a node and for a block, measured.
 constexpr float kNodeCost = 1.0f, kBlockCost = 1.4f;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
-constexpr std::uint32_t kWorthAThread = 16'384;
 
 float half_area(const BinaryNode& n) {
   const float x = n.upper[0] - n.lower[0], y = n.upper[1] - n.lower[1], z = n.upper[2] - n.lower[2];
@@ -53,7 +52,7 @@ class WideTree {
     }
     Costs left, right;
     fork(
-        n.count < kWorthAThread ? 1 : threads, [&](int mine) { left = choose(BinaryTree::left(node), mine); },
+        threads_worth(n.count, threads), [&](int mine) { left = choose(BinaryTree::left(node), mine); },
         [&](int mine) { right = choose(tree_.right(node), mine); });
     float least[kBvhWidth + 1];
     std::uint32_t split[kBvhWidth + 1];
@@ -102,7 +101,7 @@ class WideTree {
     if (is_block(node)) return kBlockLines;
     const Children children = children_of(node);
     std::uint32_t lines[kBvhWidth];
-    count_children(children, 0, children.count, lines, nodes_[node].count < kWorthAThread ? 1 : threads);
+    count_children(children, 0, children.count, lines, threads_worth(nodes_[node].count, threads));
     std::uint32_t sum = kNodeLines;
     for (std::uint32_t i = 0; i < children.count; ++i) sum += lines[i];
     nodes_[node].first = sum;
@@ -171,7 +170,7 @@ class Writer {
       to.child[i] = next;
       next += tree_.nodes[children.node[i]].first;
     }
-    write_children(to, children, 0, children.count, tree_.nodes[node].count < kWorthAThread ? 1 : threads);
+    write_children(to, children, 0, children.count, threads_worth(tree_.nodes[node].count, threads));
   }
 
   void write_block(std::uint32_t node, std::uint32_t line) const {
