@@ -122,4 +122,6 @@ NORRSKEN_INLINE void store_octet(float* p, const Octet& a) { store_part(p, a); }
 
 #endif
 
+NORRSKEN_INLINE Octet size(const Octet& a) { return max(a, Octet(0.0f) - a); }
+
 }  // namespace norrsken::NORRSKEN_ISA

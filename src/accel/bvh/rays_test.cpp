@@ -206,6 +206,34 @@ TEST(BvhRays, OfOneTriangle) {
   }
 }
 
+/// A floor that is large against its distance is where it is, however large.
+TEST(BvhRays, OfAGroundPlane) {
+  TestRandom random(13);
+  for (const double half : {1e3, 1e4, 1e6, 1e8, 1e10, 1e13}) {
+    TestMesh mesh;
+    const glm::dvec3 corners[] = {{-half, -1, -half}, {half, -1, -half}, {half, -1, half}, {-half, -1, half}};
+    mesh.add_triangle(corners[0], corners[1], corners[2]);
+    mesh.add_triangle(corners[0], corners[2], corners[3]);
+    mesh.finish();
+    const TestView bvh(mesh, AccelKind::bvh);
+    std::vector<TestRay> rays;
+    for (int i = 0; i < 2000; ++i) {
+      glm::dvec3 to = random.in_cube() * 5.0;
+      to.y = -0.01 - random.uniform();
+      rays.push_back({glm::vec3(0), glm::vec3(glm::normalize(to))});
+    }
+    const RayBlock block(rays);
+    for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
+      const std::vector<TestHit> hits = block.closest(bvh.view, **k);
+      double most = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        most = std::max(most, std::abs(double{hits[i].t} * -double{rays[i].direction.y} - 1));
+      }
+      EXPECT_LT(most, 1e-5) << (*k)->name << ", " << half;
+    }
+  }
+}
+
 /// Points, lines and slivers hide nothing, and what is behind them is found.
 TEST(BvhRays, OfDegenerateTriangles) {
   TestRandom random(9);

@@ -36,8 +36,8 @@ NORRSKEN_INLINE std::uint32_t met_children(const BvhNode& node, const RayState& 
 
 /// Whether the ray has ended here.
 template <Query query>
-NORRSKEN_INLINE bool visit_block(const TriangleBlock& block, RayState& r) {
-  const BlockCrossing c = cross_block(block, r);
+NORRSKEN_INLINE bool visit_block(const TriangleBlock& block, const RaySpan& rays, RayState& r) {
+  const BlockCrossing c = cross_block(block, rays, r);
   if (c.crossed == 0) return false;
   const Octet t_max(r.t);
   if constexpr (query == Query::occlusion) {
@@ -98,7 +98,7 @@ __attribute__((noinline)) inline void traverse(const BvhView& bvh, const RaySpan
           push_unsorted(r, node, met);
         }
       } else {
-        ended = visit_block<query>(*reinterpret_cast<const TriangleBlock*>(line), r);
+        ended = visit_block<query>(*reinterpret_cast<const TriangleBlock*>(line), rays, r);
       }
       r.current = r.child[--r.waiting];
       if (!ended && r.current != kBvhNothing) {
