@@ -1,7 +1,10 @@
 #include "accel/build.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <thread>
 
 #include "accel/embree_elements.h"
@@ -10,13 +13,28 @@
 namespace norrsken {
 namespace {
 
-Array<float> triangle_extents(const SceneTables& scene) {
+/// What tests that begin from a triangle's corners may be off along its normal is so many ulps of this: each coordinate as
+/// far as its axis points along the normal. A ground plane's own height counts, its size does not.
+float rounding_extent(const std::array<glm::dvec3, 3>& corners) {
+  const glm::dvec3 normal = glm::abs(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const double length = glm::length(normal);
+  double extent = 0;
+  for (const glm::dvec3& corner : corners) {
+    const glm::dvec3 size = glm::abs(corner);
+    extent = std::max(extent, length > 0 ? glm::dot(normal, size) / length : std::max({size.x, size.y, size.z}));
+  }
+  return static_cast<float>(extent);
+}
+
+Array<float> rounding_extents(const SceneTables& scene) {
   Array<float> extents(scene.triangle_count());
   for (std::size_t i = 0; i < extents.size(); ++i) {
+    std::array<glm::dvec3, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
       const float* p = scene.positions.data() + std::size_t{3} * scene.triangle_vertices[3 * i + k];
-      extents[i] = std::max({extents[i], std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+      corners[k] = {p[0], p[1], p[2]};
     }
+    extents[i] = rounding_extent(corners);
   }
   return extents;
 }
@@ -37,9 +55,9 @@ Accel::Accel(const SceneTables& scene, AccelKind kind, Variation variation, int 
   spheres_ = build_spheres(scene);
   view_.kind = kind;
   view_.sphere_count = static_cast<std::uint32_t>(spheres_.size());
-  if (kind != AccelKind::planes) {
-    triangle_extent_ = triangle_extents(scene);
-    view_.triangle_extent = triangle_extent_.data();
+  if (kind == AccelKind::embree || kind == AccelKind::moller_trumbore) {
+    rounding_extents_ = rounding_extents(scene);
+    view_.rounding_extents = rounding_extents_.data();
   }
   if (kind == AccelKind::planes) {
     const auto others = std::stable_partition(
@@ -61,7 +79,6 @@ Accel::Accel(const SceneTables& scene, AccelKind kind, Variation variation, int 
     move_to_huge_pages(scene.texcoords);
     move_to_huge_pages(scene.triangle_vertices);
     move_to_huge_pages(scene.surfaces);
-    move_to_huge_pages(triangle_extent_);
     view_.analytics = scene.analytics.data();
     view_.analytic_count = static_cast<std::uint32_t>(scene.analytics.size());
     view_.first_analytic = scene.first_analytic;

@@ -113,7 +113,7 @@ class Accel {
  private:
   PlaneTables planes_;
   Array<SphereRecord> spheres_;
-  Array<float> triangle_extent_;
+  Array<float> rounding_extents_;
   Bvh bvh_;
   std::unique_ptr<EmbreeScene> embree_;
   AccelView view_;

@@ -76,9 +76,9 @@ struct AccelView {
   const EmbreeGeometry* embree_geometries = nullptr;
   const std::uint32_t* instance_geometries = nullptr;
   std::uint32_t first_instance = 0;  ///< Embree's ID of the first instance, the others follow
-  /// Largest absolute coordinate of each triangle's corners, which bounds the rounding of tests that begin from
-  /// corners; null for planes, whose rounding does not depend on it.
-  const float* triangle_extent = nullptr;
+  /// Of each triangle: what the rounding of tests that begin from its corners is relative to, along its normal. Null where
+  /// it does not depend on them: for planes, and for the hierarchy, which meets what is near in double precision.
+  const float* rounding_extents = nullptr;
 };
 
 }  // namespace norrsken

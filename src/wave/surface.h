@@ -205,8 +205,8 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& h
   const Mask analytic = active & (scene.first_analytic == kNone ? Float(1.0f) < Float(0.0f)
                                                                 : !below(hit.primitive, scene.first_analytic));
   const Mask sphere = active & !triangle & !analytic;
-  if (scene.accel.triangle_extent != nullptr) {
-    scale = max(scale, zero_unless(triangle, gather(scene.accel.triangle_extent, hit.primitive, triangle)));
+  if (scene.accel.rounding_extents != nullptr) {
+    scale = max(scale, zero_unless(triangle, gather(scene.accel.rounding_extents, hit.primitive, triangle)));
   }
   if (scene.sphere_count > 0) {
     if (any(sphere)) {

@@ -178,6 +178,38 @@ TEST_F(FarAway, SmallThingsKeepTheirSize) {
   EXPECT_NEAR(covered("parts.obj", "3000", "0") / wanted, 1, 2e-3) << "a mesh whose parts are small";
 }
 
+class OnALargeFloor : public SceneFolder {};
+
+/// A pyramid hides the sky from the floor around it, however large the floor is, and shows in it where it stands.
+TEST_F(OnALargeFloor, ThingsStand) {
+  write("pyramid.obj",
+        "v -0.5 0 -0.5\nv 0.5 0 -0.5\nv 0.5 0 0.5\nv -0.5 0 0.5\nv 0 1 0\nf 5 2 1\nf 5 3 2\nf 5 4 3\nf 5 1 4\n");
+  const auto picture = [&](const char* size, const char* accelerator) {
+    const Scene scene = load_elements(R"(<integrator type="path"><integer name="max_depth" value="3"/></integrator>)" +
+                                      camera(kSize, {.origin = "0.1, 1.2, -4", .target = "0, 0.2, 0"}) +
+                                      R"(<shape type="obj">)" + text("filename", "pyramid.obj") + kGrey + "</shape>" +
+                                      R"(<shape type="rectangle"><transform name="to_world"><scale value=")" + size +
+                                      R"("/><rotate x="1" angle="-90"/></transform>)" + kGrey +
+                                      R"(</shape><emitter type="constant"/>)");
+    return render_image(scene,
+                        {.samples_per_pixel = 16, .threads = kThreads, .accelerator = accelerator, .features = true});
+  };
+  const Image wanted = picture("100", "planes");
+  for (const char* accelerator : {"bvh", "embree", "moller_trumbore"}) {
+    for (const char* size : {"100", "10000", "1000000"}) {
+      const Image got = picture(size, accelerator);
+      for (const char* layer : {"G", "depth.Z"}) {
+        const std::vector<float>&a = got.find(layer)->values, &b = wanted.find(layer)->values;
+        // From half of the height down: all of the nearer floor.
+        for (std::size_t i = a.size() / 2; i < a.size(); ++i) {
+          ASSERT_NEAR(a[i], b[i], 1e-3f * std::abs(b[i]))
+              << accelerator << ", " << size << ", " << layer << " of " << i;
+        }
+      }
+    }
+  }
+}
+
 /// The room's triangles stay what they are made of.
 TEST(AcceleratorsMerge, TheRoom) {
   const Scene scene = load("hexagon_room");
