@@ -19,9 +19,9 @@ struct BlockCrossing {
   std::uint32_t crossed;  ///< bit i: triangle i, for a t of any sign
 };
 
-/// How much larger than the distance what it is made of may be, divided by how much of the triangle is seen: t then is off by
-/// 2^-17 of itself at most.
-inline constexpr float kMostSpread = 32.0f;
+/// How many times the distance a corner may be away. What is interpolated rounds relative to that, which
+/// does not matter within RayState::reach.
+inline constexpr float kMostReach = 8.0f;
 
 /// The distance along a ray to a triangle's plane.
 __attribute__((noinline)) inline float distance_to_plane(const TriangleBlock& block, std::uint32_t triangle,
@@ -66,11 +66,8 @@ NORRSKEN_INLINE BlockCrossing cross_block(const TriangleBlock& block, const RayS
     const Octet distance = z[0] + v * inverse * (z[1] - z[0]) + w * inverse * (z[2] - z[0]);
     c.t = distance * Octet(r.shear[2]);
     const Octet highest = max(max(z[0], z[1]), z[2]), lowest = min(min(z[0], z[1]), z[2]);
-    const Octet right = max(max(x[0], x[1]), x[2]), left = min(min(x[0], x[1]), x[2]);
-    const Octet top = max(max(y[0], y[1]), y[2]), bottom = min(min(y[0], y[1]), y[2]);
-    const Octet width = max(right - left, top - bottom);
-    const Octet spread = (highest - lowest) * size(width * inverse) * max(highest, zero - lowest);
-    std::uint32_t spread_out = c.crossed & to_bits(Octet(kMostSpread) * size(distance) < spread);
+    const OctetMask is_near = max(size(distance) * Octet(kMostReach), Octet(r.reach)) < max(highest, zero - lowest);
+    std::uint32_t spread_out = c.crossed & to_bits(is_near);
     if (spread_out != 0) {
       alignas(32) float t[kBvhWidth];
       store_octet(t, c.t);

@@ -29,6 +29,7 @@ struct alignas(64) RayState {
   float shear[3];                ///< turns the direction into the third axis
   std::uint32_t corners[3];      ///< where a block's coordinates begin along the axes of the sheared space, in floats
   float sheared_origin[3];       ///< its coordinates in that order, not sheared
+  float reach;                   ///< corners that are nearer round by less than rays begin off surfaces (kOffsetUlps)
   float t;
   std::uint32_t primitive_side;
   std::uint32_t ray;      ///< its number
@@ -37,12 +38,16 @@ struct alignas(64) RayState {
   alignas(32) float entry[kMostWaiting];  ///< where the ray meets it, or a little before
 };
 
+/// RayState::reach over the origin's largest coordinate. What cross_block() interpolates rounds by some 2^-22 of the corners'
+/// distance, and rays begin 2^-18 of their origin off.
+inline constexpr float kReachOfOrigin = 4.0f;
+
 inline constexpr std::uint32_t kBoundsOfAxis = 2 * kBvhWidth, kCornersOfAxis = 3 * kBvhWidth;
 
 /// The beginnings of a register's rays, computed together. Field k of lane i is values[k][i], in the order of RayState.
 class Beginnings {
  public:
-  static constexpr std::uint32_t kFields = 18;
+  static constexpr std::uint32_t kFields = 19;
 
   /// Of the rays from `first` on.
   NORRSKEN_INLINE void prepare(const RaySpan& rays, std::uint32_t first) {
@@ -72,6 +77,7 @@ class Beginnings {
       store(values_[12 + k], turned(corners[x], corners[y], corners[k]));
       store(values_[15 + k], turned(o[x], o[y], o[k]));
     }
+    store(values_[18], Float(kReachOfOrigin) * max(abs(o[0]), max(abs(o[1]), abs(o[2]))));
     sound_ = to_bits((sum < Float(kFar)) & (abs(dz) > Float(0.0f)) & (load(rays.t + first) > Float(0.0f)));
   }
 
@@ -87,6 +93,7 @@ class Beginnings {
       r.corners[k] = __builtin_bit_cast(std::uint32_t, values_[12 + k][i]);
       r.sheared_origin[k] = values_[15 + k][i];
     }
+    r.reach = values_[18][i];
   }
 
  private:
