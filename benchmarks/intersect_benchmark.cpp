@@ -12,7 +12,7 @@ namespace {
 void closest(benchmark::State& state, const KernelEntry& kernels, const BenchScene& scene, bool coherent) {
   const BenchRays rays(scene, coherent);
   for (auto _ : state) {
-    kernels.closest_rays(scene.view(), coherent, rays.arrays(), rays.t(), rays.primitives());
+    probe_of(kernels).closest_rays(scene.view(), coherent, rays.arrays(), rays.t(), rays.primitives());
     benchmark::ClobberMemory();
   }
   state.counters["Mrays/s"] = benchmark::Counter(static_cast<double>(rays.arrays().count) * 1e-6,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/aligned.h"
-#include "isa/entry.h"
+#include "isa/probe_testing.h"
 #include "norrsken/scene.h"
 #include "render/scene_view.h"
 #include "render/wave_arena.h"

@@ -63,28 +63,36 @@ struct Batch {
   }
 };
 
-void keep_rays(const Queue& queue, bool shadow, std::vector<Batch>& batches) {
-  static_assert(int{kRayOriginX} == int{kShadowOriginX} && int{kRayDirectionX} == int{kShadowDirectionX});
-  static_assert(kRayOriginX == 0 && kRayDirectionX == 3 && kShadowDistance == 6);
+/// Of RAYS or SHADOW RAYS.
+template <class Record>
+void keep_rays(const Queue<Record>& queue, std::vector<Batch>& batches) {
+  constexpr bool shadow = std::is_same_v<Record, stored::ShadowRay>;
   if (queue.count == 0) return;
   Batch& batch = batches.emplace_back(Batch{shadow, {}, {}});
   batch.rays.reserve(queue.count);
   for (std::uint32_t i = 0; i < queue.count; ++i) {
-    const auto value = [&](std::uint32_t field) { return queue.field(field)[i]; };
-    batch.rays.push_back({value(kRayOriginX), value(kRayOriginY), value(kRayOriginZ), 0.0f, value(kRayDirectionX),
-                          value(kRayDirectionY), value(kRayDirectionZ), 0.0f,
-                          shadow ? value(kShadowDistance) : __builtin_inff(), ~0u, 0u, 0u});
+    const Record ray = queue[i];
+    float t_max = __builtin_inff();
+    if constexpr (shadow) t_max = ray.t_max;
+    const auto &o = ray.origin, &d = ray.direction;
+    batch.rays.push_back({o[0], o[1], o[2], 0.0f, d[0], d[1], d[2], 0.0f, t_max, ~0u, 0u, 0u});
   }
   batch.fields.resize(7 * batch.stride());
-  for (std::uint32_t k = 0; k < (shadow ? 7u : 6u); ++k)
-    std::copy_n(queue.field(k), queue.count, batch.fields.data() + k * batch.stride());
+  const auto keep = [&](std::uint32_t k, const float* field) {
+    std::copy_n(field, queue.count, batch.fields.data() + k * batch.stride());
+  };
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    keep(k, queue.field(&Record::origin, k));
+    keep(3 + k, queue.field(&Record::direction, k));
+  }
+  if constexpr (shadow) keep(6, queue.field(&Record::t_max));
 }
 
 /// Told of every step of a wave, it keeps the rays that are about to be asked.
 void keep_event(void* batches, WaveEvent event, const WaveMemory& memory) {
   auto& to = *static_cast<std::vector<Batch>*>(batches);
-  if (event == WaveEvent::camera_rays || event == WaveEvent::next_rays) keep_rays(memory.rays, false, to);
-  if (event == WaveEvent::shadow_rays) keep_rays(memory.shadow_rays, true, to);
+  if (event == WaveEvent::camera_rays || event == WaveEvent::next_rays) keep_rays(memory.rays, to);
+  if (event == WaveEvent::shadow_rays) keep_rays(memory.shadow_rays, to);
 }
 
 std::uint64_t count_rays(const std::vector<Batch>& batches, bool shadow) {
@@ -118,7 +126,7 @@ void trace_hierarchy(const SceneView& scene, const KernelEntry& kernels, const B
   if (batch.shadow) {
     kernels.occluded_rays(scene, rays, batch.field(6), occluded.data());
   } else {
-    kernels.closest_rays(scene, false, rays, t.data(), primitives.data());
+    probe_of(kernels).closest_rays(scene, false, rays, t.data(), primitives.data());
   }
 }
 

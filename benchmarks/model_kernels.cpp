@@ -22,10 +22,13 @@ NORRSKEN_INLINE Vec3f load3(const float* const (&v)[3], std::uint32_t i) {
 NORRSKEN_INLINE void store3(float* const* out, std::uint32_t i, const Vec3f& v) {
   store(out[0] + i, v.x), store(out[1] + i, v.y), store(out[2] + i, v.z);
 }
+NORRSKEN_INLINE void store3(float* const* out, std::uint32_t i, const Color& v) {
+  store(out[0] + i, v.r), store(out[1] + i, v.g), store(out[2] + i, v.b);
+}
 
 NORRSKEN_INLINE void store_sample(const ModelArrays& a, std::uint32_t i, const BsdfSample& s) {
   store3(a.out, i, s.wi);
-  store3(a.out + 3, i, select(s.valid, s.weight, {Float(0.0f), Float(0.0f), Float(0.0f)}));
+  store3(a.out + 3, i, select(s.valid, s.weight, black()));
   store(a.out[6] + i, s.pdf_sa);
   store(a.out[7] + i, s.eta);
 }

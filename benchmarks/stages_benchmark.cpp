@@ -11,25 +11,25 @@ constexpr std::uint32_t kDiffuse = static_cast<std::uint32_t>(BsdfKind::diffuse)
 /// A wave traced up to the shading of its second hits, with that instruction set.
 struct StoppedWave {
   const SceneView& scene;
-  const KernelEntry& kernels;
+  const KernelProbe& kernels;
   WaveArena arena;
   WaveMemory& memory = arena.memory();
   WaveJob job{320, 480, 16, 4, 0, 16};
 
-  StoppedWave(const SceneView& s, const KernelEntry& k) : scene(s), kernels(k) {
+  StoppedWave(const SceneView& s, const KernelEntry& k) : scene(s), kernels(probe_of(k)) {
     kernels.generate_camera_rays(scene, job, memory.slots, memory.rays);
-    kernels.intersect_closest(scene, 1, ~1u, memory.rays, memory);
-    kernels.shade_surface(scene, BsdfKind::diffuse, 1, false, memory.hits[kDiffuse], memory.slots, memory.shadow_rays,
-                          memory.next_rays);
+    kernels.intersect_closest(scene, true, ~1u, memory.rays, memory.slots, memory.found);
+    kernels.shade_surface(scene, BsdfKind::diffuse, 1, false, memory.found.hits[kDiffuse], memory.slots,
+                          memory.shadow_rays, memory.next_rays);
     std::swap(memory.rays, memory.next_rays);
     clear();
-    kernels.intersect_closest(scene, 2, ~1u, memory.rays, memory);
-    kernels.shade_surface(scene, BsdfKind::diffuse, 2, false, memory.hits[kDiffuse], memory.slots, memory.shadow_rays,
-                          memory.next_rays);
+    kernels.intersect_closest(scene, false, ~1u, memory.rays, memory.slots, memory.found);
+    kernels.shade_surface(scene, BsdfKind::diffuse, 2, false, memory.found.hits[kDiffuse], memory.slots,
+                          memory.shadow_rays, memory.next_rays);
   }
   void clear() {
-    for (Queue& q : memory.hits) q.count = 0;
-    memory.light_hits.count = memory.shadow_rays.count = memory.next_rays.count = 0;
+    for (auto& q : memory.found.hits) q.count = 0;
+    memory.found.light_hits.count = memory.shadow_rays.count = memory.next_rays.count = 0;
   }
 };
 
@@ -50,28 +50,28 @@ void stage(const std::string& name, const KernelEntry& kernels, Body body) {
 
 void register_stages(const KernelEntry& kernels) {
   stage("generate_camera_rays", kernels, [&](StoppedWave& w) {
-    kernels.generate_camera_rays(w.scene, w.job, w.memory.slots, w.memory.next_rays);
+    w.kernels.generate_camera_rays(w.scene, w.job, w.memory.slots, w.memory.next_rays);
     return w.memory.next_rays.count;
   });
   stage("intersect_closest", kernels, [&](StoppedWave& w) {
-    for (Queue& q : w.memory.hits) q.count = 0;
-    w.memory.light_hits.count = 0;
-    kernels.intersect_closest(w.scene, 2, ~1u, w.memory.rays, w.memory);
+    for (auto& q : w.memory.found.hits) q.count = 0;
+    w.memory.found.light_hits.count = 0;
+    w.kernels.intersect_closest(w.scene, false, ~1u, w.memory.rays, w.memory.slots, w.memory.found);
     return w.memory.rays.count;
   });
   stage("intersect_emitters", kernels, [&](StoppedWave& w) {
-    w.memory.light_hits.count = 0;
-    kernels.intersect_emitters(w.scene, w.memory.rays, w.memory);
+    w.memory.found.light_hits.count = 0;
+    w.kernels.intersect_emitters(w.scene, w.memory.rays, w.memory.slots, w.memory.found);
     return w.memory.rays.count;
   });
   stage("shade_surface_diffuse", kernels, [&](StoppedWave& w) {
     w.memory.shadow_rays.count = w.memory.next_rays.count = 0;
-    kernels.shade_surface(w.scene, BsdfKind::diffuse, 2, false, w.memory.hits[kDiffuse], w.memory.slots,
-                          w.memory.shadow_rays, w.memory.next_rays);
-    return w.memory.hits[kDiffuse].count;
+    w.kernels.shade_surface(w.scene, BsdfKind::diffuse, 2, false, w.memory.found.hits[kDiffuse], w.memory.slots,
+                            w.memory.shadow_rays, w.memory.next_rays);
+    return w.memory.found.hits[kDiffuse].count;
   });
   stage("intersect_shadow", kernels, [&](StoppedWave& w) {
-    kernels.intersect_shadow(w.scene, w.memory.shadow_rays, w.memory.slots);
+    w.kernels.intersect_shadow(w.scene, w.memory.shadow_rays, w.memory.slots);
     return w.memory.shadow_rays.count;
   });
   stage("accumulate_film", kernels, [&](StoppedWave& w) {

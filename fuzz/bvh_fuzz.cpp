@@ -7,7 +7,7 @@
 #include "accel/build.h"
 #include "base/aligned.h"
 #include "fuzz/byte_source.h"
-#include "isa/entry.h"
+#include "isa/probe_testing.h"
 #include "render/scene_view.h"
 
 namespace norrsken::fuzz {
@@ -52,8 +52,8 @@ void check(ByteSource& bytes) {
   const auto field = [&](std::uint32_t k) { return values.data() + k * kRays; };
   const RayArrays rays{field(0), field(1), field(2), field(3), field(4), field(5), kRays};
   for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
-    (*k)->closest_rays(view, false, rays, t.data(), primitive.data());
-    (*k)->closest_rays(view_by_many, false, rays, t_by_many.data(), primitive_by_many.data());
+    probe_of(**k).closest_rays(view, false, rays, t.data(), primitive.data());
+    probe_of(**k).closest_rays(view_by_many, false, rays, t_by_many.data(), primitive_by_many.data());
     (*k)->occluded_rays(view, rays, field(6), occluded.data());
     for (std::uint32_t i = 0; i < kRays; ++i) {
       const bool hit = primitive[i] != kNone;

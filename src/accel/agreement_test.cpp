@@ -41,7 +41,7 @@ struct Closest {
   Answers<std::uint32_t> primitive{kRays};
 
   Closest(const ViewedScene& viewed, const KernelEntry& kernels, const RandomRays& rays, bool coherent) {
-    kernels.closest_rays(viewed.view, coherent, rays.arrays(), t.data(), primitive.data());
+    probe_of(kernels).closest_rays(viewed.view, coherent, rays.arrays(), t.data(), primitive.data());
   }
 };
 

@@ -249,10 +249,11 @@ TEST(EmbreeGrid, EveryLaneWidthAndPacketsFindTheSame) {
   const RandomRays random = scene.rays(kRays, 6);
   Answers<float> wanted(kRays), t(kRays);
   Answers<std::uint32_t> wanted_side(kRays), side(kRays);
-  find_kernels("scalar")->closest_rays(scene.view(), false, random.arrays(), wanted.data(), wanted_side.data());
+  probe_of(*find_kernels("scalar"))
+      .closest_rays(scene.view(), false, random.arrays(), wanted.data(), wanted_side.data());
   for (const KernelEntry* kernels : wide_kernels()) {
     for (const bool coherent : {false, true}) {
-      kernels->closest_rays(scene.view(), coherent, random.arrays(), t.data(), side.data());
+      probe_of(*kernels).closest_rays(scene.view(), coherent, random.arrays(), t.data(), side.data());
       for (std::uint32_t i = 0; i < kRays; ++i) {
         ASSERT_EQ(t[i], wanted[i]) << kernels->name << " ray " << i;
         ASSERT_EQ(side[i], wanted_side[i]) << kernels->name << " ray " << i;

@@ -31,7 +31,7 @@ NORRSKEN_INLINE void closest_by_moller_trumbore(const SceneView& scene, const Ve
 }
 
 NORRSKEN_INLINE Mask occluded_by_moller_trumbore(const SceneView& scene, const Vec3f& o, const Vec3f& d, Float t_max) {
-  Mask occluded = Float(1.0f) < Float(0.0f);
+  Mask occluded = Mask::none();
   for (std::uint32_t i = 0; i < scene.triangle_count; ++i) {
     const TriangleCrossing c = cross_triangle_of(scene, i, o, d);
     occluded |= c.inside & (c.t > Float(0.0f)) & (c.t < t_max);
@@ -82,7 +82,7 @@ class ClosestOfQueue {
  public:
   ClosestOfQueue(const SceneView& scene, bool coherent, const RayFields& rays, std::uint32_t count)
       : scene_(scene), coherent_(coherent), rays_(rays), count_(count) {}
-  ClosestOfQueue(const SceneView& scene, bool coherent, const Queue& rays)
+  ClosestOfQueue(const SceneView& scene, bool coherent, const Queue<stored::Ray>& rays)
       : ClosestOfQueue(scene, coherent, RayFields(rays), rays.count) {}
 
   /// Of the rays from `i` on, whose origins and directions are `o` and `d`.
@@ -136,8 +136,11 @@ class OccludedOfQueue {
  public:
   OccludedOfQueue(const SceneView& scene, const RayFields& rays, const float* t_max, std::uint32_t count)
       : scene_(scene), rays_(rays), t_max_(t_max), count_(count) {}
-  OccludedOfQueue(const SceneView& scene, const Queue& shadow_rays)
-      : OccludedOfQueue(scene, RayFields(shadow_rays), shadow_rays.field(kShadowDistance), shadow_rays.count) {}
+  OccludedOfQueue(const SceneView& scene, const Queue<stored::ShadowRay>& rays)
+      : OccludedOfQueue(scene, RayFields(rays), rays.field(&stored::ShadowRay::t_max), rays.count) {}
+  OccludedOfQueue(const SceneView& scene, const Queue<stored::Connection>& rays)
+      : OccludedOfQueue(scene, RayFields(rays), rays.field(&stored::Connection::ray, &stored::ShadowRay::t_max),
+                        rays.count) {}
 
   NORRSKEN_INLINE Mask at(std::uint32_t i, const Vec3f& o, const Vec3f& d, Float t_max, Mask active) {
     if (scene_.accel.kind != AccelKind::bvh) return occluded_lanes(scene_, o, d, t_max, active);

@@ -20,7 +20,7 @@ NORRSKEN_INLINE TriangleCrossing cross_triangle(const float* v0, const float* v1
   const Vec3f e2{Float(v2[0] - v0[0]), Float(v2[1] - v0[1]), Float(v2[2] - v0[2])};
   const Vec3f p = cross(d, e2);
   const Float det = dot(p, e1);
-  const Float inv = Float(1.0f) / det;
+  const Float inv = 1.0f / det;
   const Vec3f t_vec = o - broadcast(v0);
   const Float u = inv * dot(p, t_vec);
   const Vec3f q = cross(t_vec, e1);
@@ -28,7 +28,7 @@ NORRSKEN_INLINE TriangleCrossing cross_triangle(const float* v0, const float* v1
   const Float t = inv * dot(q, e2);
   // A few ulps of overlap, so that neighbours leave no gap between them.
   const Float slack(-0x1p-20f);
-  return {t, (u >= slack) & (v >= slack) & (u + v <= Float(1.0f + 0x1p-20f)), det < Float(0.0f)};
+  return {t, (u >= slack) & (v >= slack) & (u + v <= Float(1.0f + 0x1p-20f)), det < 0.0f};
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

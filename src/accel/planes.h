@@ -43,13 +43,13 @@ NORRSKEN_INLINE Mask inside_polygon(const PolygonRecord& polygon, const PolygonR
   if (polygon.kind == PolygonKind::parallelogram) {
     const Float a = fma(Float(row[0].u), u, fma(Float(row[0].v), v, Float(row[0].w)));
     const Float b = fma(Float(row[1].u), u, fma(Float(row[1].v), v, Float(row[1].w)));
-    return max(abs(a), abs(b)) <= Float(1.0f);
+    return max(abs(a), abs(b)) <= 1.0f;
   }
   Float smallest = fma(Float(row[0].u), u, fma(Float(row[0].v), v, Float(row[0].w)));
   for (std::uint32_t i = 1; i < polygon.row_count; ++i) {
     smallest = min(smallest, fma(Float(row[i].u), u, fma(Float(row[i].v), v, Float(row[i].w))));
   }
-  return smallest >= Float(0.0f);
+  return smallest >= 0.0f;
 }
 
 template <int axis>
@@ -59,10 +59,10 @@ NORRSKEN_INLINE void closest_in_planes_of_axis(const AccelView& accel, const Pla
   for (std::uint32_t i = set.axis_begin[axis]; i < set.axis_begin[axis + 1]; ++i) {
     const PlaneRecord& plane = accel.planes[i];
     const PlaneCrossing c = cross_plane(plane, r);
-    const Mask closer = (c.t > Float(0.0f)) & (c.t < hit.t);
+    const Mask closer = (c.t > 0.0f) & (c.t < hit.t);
     if (none(closer)) continue;
     const Float u = fma(c.t, r.du, r.ou), v = fma(c.t, r.dv, r.ov);
-    const UInt side = (bits(c.n_dot_d) ^ UInt(plane.back_flip)) & UInt(kBackSide);
+    const UInt side = (bits(c.n_dot_d) ^ UInt(plane.back_flip)) & kBackSide;
     for (std::uint32_t j = 0; j < plane.polygon_count; ++j) {
       const PolygonRecord& polygon = accel.polygons[plane.first_polygon + j];
       const Mask found = closer & inside_polygon(polygon, accel.rows, u, v);
@@ -76,11 +76,11 @@ template <int axis>
 NORRSKEN_INLINE Mask occluded_in_planes_of_axis(const AccelView& accel, const PlaneSet& set, const Vec3f& o,
                                                 const Vec3f& d, Float t_max) {
   const PermutedRay<axis> r(o, d);
-  Mask occluded = Float(1.0f) < Float(0.0f);
+  Mask occluded = Mask::none();
   for (std::uint32_t i = set.axis_begin[axis]; i < set.axis_begin[axis + 1]; ++i) {
     const PlaneRecord& plane = accel.planes[i];
     const PlaneCrossing c = cross_plane(plane, r);
-    const Mask between = (c.t > Float(0.0f)) & (c.t < t_max);
+    const Mask between = (c.t > 0.0f) & (c.t < t_max);
     const Float u = fma(c.t, r.du, r.ou), v = fma(c.t, r.dv, r.ov);
     for (std::uint32_t j = 0; j < plane.polygon_count; ++j) {
       occluded |= between & inside_polygon(accel.polygons[plane.first_polygon + j], accel.rows, u, v);

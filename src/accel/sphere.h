@@ -23,15 +23,15 @@ NORRSKEN_INLINE SphereCrossing cross_sphere(const float* center, float radius, c
   const Vec3f rejected = l - d * tca;
   const Float gap =
       fnma(rejected.x, rejected.x, fnma(rejected.y, rejected.y, fnma(rejected.z, rejected.z, Float(radius * radius))));
-  const Float thc = sqrt(max(gap, Float(0.0f)));
-  return {tca - thc, tca + thc, gap > Float(0.0f)};
+  const Float thc = sqrt(max(gap, 0.0f));
+  return {tca - thc, tca + thc, gap > 0.0f};
 }
 
 NORRSKEN_INLINE void closest_sphere(const SphereRecord& sphere, const Vec3f& o, const Vec3f& d, ClosestHit& hit) {
   const SphereCrossing c = cross_sphere(sphere.center, sphere.radius, o, d);
-  const Mask inside = !(c.t0 > Float(0.0f));
+  const Mask inside = !(c.t0 > 0.0f);
   const Float t = select(inside, c.t1, c.t0);
-  const Mask closer = c.crosses & (t > Float(0.0f)) & (t < hit.t);
+  const Mask closer = c.crosses & (t > 0.0f) & (t < hit.t);
   const UInt side = select(inside, UInt(kBackSide), UInt(0u)) ^ UInt(sphere.back_flip);
   hit.t = select(closer, t, hit.t);
   hit.primitive_side = select(closer, side | UInt(sphere.primitive), hit.primitive_side);
@@ -39,9 +39,9 @@ NORRSKEN_INLINE void closest_sphere(const SphereRecord& sphere, const Vec3f& o, 
 
 NORRSKEN_INLINE Mask occluded_by_sphere(const SphereRecord& sphere, const Vec3f& o, const Vec3f& d, Float t_max) {
   const SphereCrossing c = cross_sphere(sphere.center, sphere.radius, o, d);
-  const Mask inside = !(c.t0 > Float(0.0f));
+  const Mask inside = !(c.t0 > 0.0f);
   const Float t = select(inside, c.t1, c.t0);
-  return c.crosses & (t > Float(0.0f)) & (t < t_max);
+  return c.crosses & (t > 0.0f) & (t < t_max);
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

@@ -6,10 +6,10 @@
 //   static constexpr bool kUsesLobe;           sample looks at `lobe`
 //   struct Parameters;                         its parameters in lanes
 //   static Parameters load(const ParameterReader&);
-//   static Vec3f evaluate(const Parameters&, wo, wi);                f times |cos(wi)|
+//   static Color evaluate(const Parameters&, wo, wi);                f times |cos(wi)|
 //   static Float pdf_sa(const Parameters&, wo, wi);
 //   static BsdfSample sample(const Parameters&, wo, Float lobe, Vec2f direction);
-//   static Vec3f albedo(const Parameters&);    for the feature layer
+//   static Color albedo(const Parameters&);    for the feature layer
 //   static Float refracted_eta(const Parameters&);    only if evaluate refracts: index of refraction beyond over this side
 // Of a model with both, evaluate and pdf_sa leave the delta part out. wi.z < 0 is transmission.
 #pragma once
@@ -21,10 +21,10 @@ namespace norrsken::NORRSKEN_ISA {
 
 struct BsdfSample {
   Vec3f wi;
-  Vec3f weight;             ///< f |cos| / pdf_sa; for a delta direction its share of the light
-  Float pdf_sa;             ///< 0 for a delta direction
-  Mask valid;               ///< false: nothing scatters here, the path ends
-  Float eta = Float(1.0f);  ///< index of refraction beyond over that on this side, if the direction crosses; else 1
+  Color weight;      ///< f |cos| / pdf_sa; for a delta direction its share of the light
+  Float pdf_sa;      ///< 0 for a delta direction
+  Mask valid;        ///< false: nothing scatters here, the path ends
+  Float eta = 1.0f;  ///< index of refraction beyond over that on this side, if the direction crosses; else 1
 };
 
 }  // namespace norrsken::NORRSKEN_ISA

@@ -175,8 +175,8 @@ TEST(Conductor, ReflectsAboutTheNormal) {
   const LoadedSides sides = load_bsdf("conductor", R"(<rgb name="specular_reflectance" value="0.8, 0.5, 0.3"/>)");
   const Vec3f wo = direction(0.3, 1);
   const BsdfSample s = sides.front->sample(wo, 0.5f, {Float(0.5f), Float(0.5f)});
-  EXPECT_EQ(components(s.wi), components({-wo.x, -wo.y, wo.z}));
-  EXPECT_EQ(s.weight.y.v, 0.5f);
+  EXPECT_EQ(components(s.wi), components(Vec3f{-wo.x, -wo.y, wo.z}));
+  EXPECT_EQ(s.weight.g.v, 0.5f);
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ class LoadedBsdf {
  public:
   virtual ~LoadedBsdf() = default;
   virtual bool is_delta() const = 0;
-  virtual Vec3f evaluate(const Vec3f& wo, const Vec3f& wi) const = 0;
+  virtual Color evaluate(const Vec3f& wo, const Vec3f& wi) const = 0;
   virtual float pdf_sa(const Vec3f& wo, const Vec3f& wi) const = 0;
   virtual BsdfSample sample(const Vec3f& wo, float lobe, Vec2f direction) const = 0;
-  virtual Vec3f albedo() const = 0;
+  virtual Color albedo() const = 0;
   /// The index of refraction beyond over that on this side, for what `evaluate` says of directions that cross.
   virtual float refracted_eta() const = 0;
 };
@@ -27,12 +27,12 @@ class LoadedModel final : public LoadedBsdf {
  public:
   explicit LoadedModel(const ParameterReader& p) : parameters_(Model::load(p)) {}
   bool is_delta() const override { return Model::kDelta; }
-  Vec3f evaluate(const Vec3f& wo, const Vec3f& wi) const override { return Model::evaluate(parameters_, wo, wi); }
+  Color evaluate(const Vec3f& wo, const Vec3f& wi) const override { return Model::evaluate(parameters_, wo, wi); }
   float pdf_sa(const Vec3f& wo, const Vec3f& wi) const override { return Model::pdf_sa(parameters_, wo, wi).v; }
   BsdfSample sample(const Vec3f& wo, float lobe, Vec2f direction) const override {
     return Model::sample(parameters_, wo, Float(lobe), direction);
   }
-  Vec3f albedo() const override { return Model::albedo(parameters_); }
+  Color albedo() const override { return Model::albedo(parameters_); }
   float refracted_eta() const override {
     if constexpr (requires { Model::refracted_eta(parameters_); }) {
       return Model::refracted_eta(parameters_).v;

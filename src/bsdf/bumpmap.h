@@ -15,13 +15,13 @@ namespace norrsken::NORRSKEN_ISA {
 /// Stored: the words inside, flags, scale, the texture's word.
 struct BumpMap {
   static NORRSKEN_INLINE Vec3f normal(const ParameterReader& p, const Unperturbed& s) {
-    const Vec2f slope = Bitmap::gradient(p.scene, bits(p.number(4)) & UInt(kTextureOffsetMask), p.point, p.active);
+    const Vec2f slope = Bitmap::gradient(p.scene, bits(p.number(4)) & kTextureOffsetMask, p.point, p.active);
     const Float scale = p.number(3);
     const auto moved = [&](const Vec3f& tangent, Float height) {
       return fma(s.frame.n, fms(height, scale, dot(s.frame.n, tangent)), tangent);
     };
     const Vec3f n = cross(moved(s.dp_du, slope.x), moved(s.dp_dv, slope.y));
-    return s.frame.to_local(n * copysign(Float(1.0f), dot(n, s.normal)));
+    return s.frame.to_local(n * copysign(1.0f, dot(n, s.normal)));
   }
 };
 

@@ -9,16 +9,16 @@
 namespace norrsken::NORRSKEN_ISA {
 
 struct Coat {
-  Vec3f specular_reflectance, diffuse_reflectance;
-  Vec3f inside;         ///< share of the light that gets in which arrives below the coat's other crossing
+  Color specular_reflectance, diffuse_reflectance;
+  Color inside;         ///< share of the light that gets in which arrives below the coat's other crossing
   Float eta;            ///< index of refraction below the coat's surface over that above
   Float specular_mean;  ///< mean specular reflectance over the sum of both means: steers samples
 
   /// Of choosing the specular part where the coat reflects `reflectance`.
   NORRSKEN_INLINE Float specular_prob(Float reflectance) const {
     const Float specular = reflectance * specular_mean;
-    const Float diffuse = (Float(1.0f) - reflectance) * (Float(1.0f) - specular_mean);
-    return specular / max(specular + diffuse, Float(1e-20f));
+    const Float diffuse = (1.0f - reflectance) * (1.0f - specular_mean);
+    return specular / max(specular + diffuse, 1e-20f);
   }
 };
 
@@ -30,13 +30,13 @@ NORRSKEN_INLINE Coat load_coat(const ParameterReader& p) {
   Coat c;
   c.diffuse_reflectance = p.color(0), c.specular_reflectance = p.color(4);
   c.eta = p.number(8), c.specular_mean = p.number(10);
-  const Float from_inside = p.number(9), out = Float(1.0f) / (c.eta * c.eta);
-  const Mask nonlinear = p.number(11) > Float(0.5f);
+  const Float from_inside = p.number(9), out = 1.0f / (c.eta * c.eta);
+  const Mask nonlinear = p.number(11) > 0.5f;
   const auto series = [&](Float reflectance) {
-    const Float repeated = select(nonlinear, reflectance, Float(1.0f));
-    return reflectance * out / fnma(repeated, from_inside, Float(1.0f));
+    const Float repeated = select(nonlinear, reflectance, 1.0f);
+    return reflectance * out / fnma(repeated, from_inside, 1.0f);
   };
-  c.inside = {series(c.diffuse_reflectance.x), series(c.diffuse_reflectance.y), series(c.diffuse_reflectance.z)};
+  c.inside = {series(c.diffuse_reflectance.r), series(c.diffuse_reflectance.g), series(c.diffuse_reflectance.b)};
   return c;
 }
 

@@ -17,24 +17,22 @@ struct Conductor {
   static constexpr bool kUsesLobe = false;
 
   struct Parameters {
-    Vec3f specular_reflectance, eta, k;
+    Color specular_reflectance, eta, k;
   };
 
   static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0), p.color(4), p.color(8)}; }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters&, const Vec3f&, const Vec3f&) {
-    return {Float(0.0f), Float(0.0f), Float(0.0f)};
-  }
+  static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return {0.0f, 0.0f, 0.0f}; }
 
-  static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return Float(0.0f); }
+  static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return 0.0f; }
 
   static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float, Vec2f) {
-    const Vec3f fresnel = fresnel_conductor(wo.z, p.eta, p.k);
-    return {{-wo.x, -wo.y, wo.z}, p.specular_reflectance * fresnel, Float(0.0f), wo.z > Float(0.0f)};
+    const Color fresnel = fresnel_conductor(wo.z, p.eta, p.k);
+    return {{-wo.x, -wo.y, wo.z}, p.specular_reflectance * fresnel, 0.0f, wo.z > 0.0f};
   }
 
-  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) {
-    return p.specular_reflectance * fresnel_conductor(Float(1.0f), p.eta, p.k);
+  static NORRSKEN_INLINE Color albedo(const Parameters& p) {
+    return p.specular_reflectance * fresnel_conductor(1.0f, p.eta, p.k);
   }
 };
 

@@ -18,29 +18,27 @@ struct Dielectric {
   static constexpr bool kUsesLobe = true;
 
   struct Parameters {
-    Vec3f specular_reflectance, specular_transmittance;
+    Color specular_reflectance, specular_transmittance;
     Float eta;  ///< of the other side over this side
   };
 
   static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0), p.color(4), p.number(8)}; }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters&, const Vec3f&, const Vec3f&) {
-    return {Float(0.0f), Float(0.0f), Float(0.0f)};
-  }
+  static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return {0.0f, 0.0f, 0.0f}; }
 
-  static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return Float(0.0f); }
+  static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return 0.0f; }
 
   static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float lobe, Vec2f) {
     const FresnelDielectric f = fresnel_dielectric(wo.z, p.eta);
     const Mask reflects = lobe < f.reflectance;
-    const Float inv_eta = Float(1.0f) / p.eta;
+    const Float inv_eta = 1.0f / p.eta;
     const Vec3f mirrored{-wo.x, -wo.y, wo.z}, refracted{-wo.x * inv_eta, -wo.y * inv_eta, -f.cos_t};
-    const Vec3f transmitted = p.specular_transmittance * (inv_eta * inv_eta);
-    return {select(reflects, mirrored, refracted), select(reflects, p.specular_reflectance, transmitted), Float(0.0f),
-            wo.z > Float(0.0f), select(reflects, Float(1.0f), p.eta)};
+    const Color transmitted = p.specular_transmittance * (inv_eta * inv_eta);
+    return {select(reflects, mirrored, refracted), select(reflects, p.specular_reflectance, transmitted), 0.0f,
+            wo.z > 0.0f, select(reflects, 1.0f, p.eta)};
   }
 
-  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.specular_transmittance; }
+  static NORRSKEN_INLINE Color albedo(const Parameters& p) { return p.specular_transmittance; }
 };
 
 }  // namespace norrsken::NORRSKEN_ISA

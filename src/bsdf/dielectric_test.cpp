@@ -125,14 +125,14 @@ TEST(Dielectric, GoesInAndOutAgainUnchanged) {
   EXPECT_NEAR(double(in.wi.x.v), -0.4, 1e-6);  // Snell
   EXPECT_LT(in.wi.z.v, 0.0f);
   EXPECT_EQ(in.eta.v, 1.5f);
-  EXPECT_NEAR(double(in.weight.x.v), 1 / 2.25, 1e-6);
+  EXPECT_NEAR(double(in.weight.r.v), 1 / 2.25, 1e-6);
   // From inside, z points back into the glass.
   const Vec3f back{-in.wi.x, in.wi.y, -in.wi.z};
   const BsdfSample out = Dielectric::sample(inside, back, Float(0.999f), {Float(0.5f), Float(0.5f)});
   EXPECT_NEAR(double(out.wi.x.v), -0.6, 1e-6);
   EXPECT_NEAR(double(out.wi.z.v), -0.8, 1e-6);
   EXPECT_NEAR(double(out.eta.v) * double(in.eta.v), 1.0, 1e-6);
-  EXPECT_NEAR(double(out.weight.x.v) * double(in.weight.x.v), 1.0, 1e-6);
+  EXPECT_NEAR(double(out.weight.r.v) * double(in.weight.r.v), 1.0, 1e-6);
 }
 
 TEST(Dielectric, ChoosesByFresnelsShares) {
@@ -143,7 +143,7 @@ TEST(Dielectric, ChoosesByFresnelsShares) {
   EXPECT_LT(Dielectric::sample(glass, head_on, Float(0.0401f), {}).wi.z.v, 0.0f);
   const BsdfSample total = Dielectric::sample(inside, flat, Float(0.9999f), {});
   EXPECT_GT(total.wi.z.v, 0.0f);
-  EXPECT_EQ(total.weight.x.v, 1.0f);
+  EXPECT_EQ(total.weight.r.v, 1.0f);
 }
 
 TEST(ThinDielectric, GoesStraightOnAfterAnyNumberOfReflections) {
@@ -154,7 +154,7 @@ TEST(ThinDielectric, GoesStraightOnAfterAnyNumberOfReflections) {
   EXPECT_EQ(s.wi.x.v, -wo.x.v);
   EXPECT_EQ(s.wi.z.v, -wo.z.v);
   EXPECT_EQ(s.eta.v, 1.0f);
-  EXPECT_EQ(s.weight.x.v, 1.0f);
+  EXPECT_EQ(s.weight.r.v, 1.0f);
   // r = 0.04: the sum of r + t r t + t r^3 t + ...
   double sum = 0.04;
   for (int k = 1; k < 20; k += 2) sum += 0.96 * 0.96 * std::pow(0.04, k);
@@ -177,7 +177,7 @@ TEST(RoughDielectric, TendsToTheSmoothInterface) {
       ASSERT_TRUE(s.valid.v);
       EXPECT_NEAR(double(s.wi.x.v), side < 0 ? -0.6 : -0.4, 0.01);
       EXPECT_EQ(s.wi.z.v > 0, side < 0);
-      EXPECT_NEAR(double(s.weight.x.v), side < 0 ? 1.0 : 1 / 2.25, 1e-3);
+      EXPECT_NEAR(double(s.weight.r.v), side < 0 ? 1.0 : 1 / 2.25, 1e-3);
       EXPECT_EQ(s.eta.v, side < 0 ? 1.0f : 1.5f);
     }
   }

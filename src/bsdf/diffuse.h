@@ -14,26 +14,26 @@ struct Diffuse {
   static constexpr bool kUsesLobe = false;
 
   struct Parameters {
-    Vec3f reflectance;
+    Color reflectance;
   };
 
   static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0)}; }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
-    const Float cos_i = max(wi.z, Float(0.0f));
-    return p.reflectance * zero_unless(wo.z > Float(0.0f), cos_i * Float(kInvPi));
+  static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
+    const Float cos_i = max(wi.z, 0.0f);
+    return p.reflectance * zero_unless(wo.z > 0.0f, cos_i * kInvPi);
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f& wo, const Vec3f& wi) {
-    return zero_unless(wo.z > Float(0.0f), cosine_hemisphere_pdf_sa(wi.z));
+    return zero_unless(wo.z > 0.0f, cosine_hemisphere_pdf_sa(wi.z));
   }
 
   static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float, Vec2f direction) {
     const Vec3f wi = warp_to_cosine_hemisphere(direction);
-    return {wi, p.reflectance, cosine_hemisphere_pdf_sa(wi.z), (wo.z > Float(0.0f)) & (wi.z > Float(0.0f))};
+    return {wi, p.reflectance, cosine_hemisphere_pdf_sa(wi.z), (wo.z > 0.0f) & (wi.z > 0.0f)};
   }
 
-  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.reflectance; }
+  static NORRSKEN_INLINE Color albedo(const Parameters& p) { return p.reflectance; }
 };
 
 }  // namespace norrsken::NORRSKEN_ISA

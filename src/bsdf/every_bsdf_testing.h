@@ -67,6 +67,7 @@ inline Vec3f direction(double cos_theta, double phi) {
 }
 inline Vec3f other_side(const Vec3f& v) { return {v.x, v.y, -v.z}; }
 inline std::array<double, 3> components(const Vec3f& v) { return {double{v.x.v}, double{v.y.v}, double{v.z.v}}; }
+inline std::array<double, 3> components(const Color& c) { return {double{c.r.v}, double{c.g.v}, double{c.b.v}}; }
 inline Vec3f lanes(const std::array<double, 3>& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
 
 struct View {

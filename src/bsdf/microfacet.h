@@ -33,42 +33,41 @@ struct Microfacet {
       exponential = select(ggx, exponential, exp(-slopes / z2));
       shape = select(ggx, shape, z2);
     }
-    const Float d = exponential / (Float(kPi) * alpha_u * alpha_v * shape * shape);
+    const Float d = exponential / (kPi * alpha_u * alpha_v * shape * shape);
     // Neither grazing facets, where it is 0 / 0, nor values that underflow in what they are multiplied with.
-    return zero_unless(d * m.z > Float(1e-20f), d);
+    return zero_unless(d * m.z > 1e-20f, d);
   }
 
   /// Share of the facets around m that is visible from v: above the surface those that face up from it, below (v.z < 0)
   /// those that face away.
   NORRSKEN_INLINE Float masking(const Vec3f& v, const Vec3f& m) const {
     const Float tan2 = stretched_tan2(v);
-    Float g = Float(2.0f) / (Float(1.0f) + sqrt(Float(1.0f) + tan2));
+    Float g = 2.0f / (1.0f + sqrt(1.0f + tan2));
     if (any(!ggx)) {
-      const Float a = Float(1.0f) / sqrt(tan2);
-      const Float rational =
-          a * fma(a, Float(2.181f), Float(3.535f)) / fma(a, fma(a, Float(2.577f), Float(2.276f)), Float(1.0f));
-      g = select(ggx, g, select(a < Float(1.6f), rational, Float(1.0f)));
+      const Float a = 1.0f / sqrt(tan2);
+      const Float rational = a * fma(a, 2.181f, 3.535f) / fma(a, fma(a, 2.577f, 2.276f), 1.0f);
+      g = select(ggx, g, select(a < 1.6f, rational, 1.0f));
     }
-    return zero_unless(dot(v, m) * v.z > Float(0.0f), g);
+    return zero_unless(dot(v, m) * v.z > 0.0f, g);
   }
 
   /// Smith's masking of all facets that face v, v.z > 0, without approximation.
   NORRSKEN_INLINE Float exact_masking(const Vec3f& v) const {
     const Float tan2 = stretched_tan2(v);
-    Float g = Float(2.0f) / (Float(1.0f) + sqrt(Float(1.0f) + tan2));
-    if (any(!ggx)) g = select(ggx, g, Float(2.0f) / beckmann_visible_area(sqrt(tan2)));
+    Float g = 2.0f / (1.0f + sqrt(1.0f + tan2));
+    if (any(!ggx)) g = select(ggx, g, 2.0f / beckmann_visible_area(sqrt(tan2)));
     return g;
   }
 
   /// Density of sample_visible; wo.z > 0.
   NORRSKEN_INLINE Float visible_pdf_sa(const Vec3f& wo, const Vec3f& m) const {
-    return density(m) * exact_masking(wo) * max(dot(wo, m), Float(0.0f)) / wo.z;
+    return density(m) * exact_masking(wo) * max(dot(wo, m), 0.0f) / wo.z;
   }
 
   /// A normal as often as its facets are seen from `wo`; wo.z > 0.
   NORRSKEN_INLINE Vec3f sample_visible(const Vec3f& wo, Vec2f u) const {
     const Vec3f view = stretched(wo);
-    Vec3f m{Float(0.0f), Float(0.0f), Float(1.0f)};
+    Vec3f m{0.0f, 0.0f, 1.0f};
     if (any(ggx)) m = sample_cap(view, sin_cos_turns(u.x), u.y);
     if (any(!ggx)) m = select(ggx, m, sample_visible_beckmann(view, u));
     return stretched_back(m);
@@ -82,7 +81,7 @@ struct Microfacet {
   /// To roughness 1, and normals back from there.
   NORRSKEN_INLINE Vec3f stretched(const Vec3f& v) const { return {v.x * alpha_u, v.y * alpha_v, v.z}; }
   NORRSKEN_INLINE Vec3f stretched_back(const Vec3f& m) const {
-    return normalize(Vec3f{m.x * alpha_u, m.y * alpha_v, max(m.z, Float(1e-7f))});
+    return normalize(Vec3f{m.x * alpha_u, m.y * alpha_v, max(m.z, 1e-7f)});
   }
 
   /// Squared tangent of v's angle to the normal after the stretch that makes both roughnesses one.
@@ -93,16 +92,16 @@ struct Microfacet {
 
   /// 2 / G1: the sum that Walter et al. 2007 have in the denominator before equation 27.
   static NORRSKEN_INLINE Float beckmann_visible_area(Float tan_theta) {
-    const Float cot = Float(1.0f) / tan_theta;
-    return fma(tan_theta * Float(kInvSqrtPi), exp(-cot * cot), Float(1.0f) + erf(cot));
+    const Float cot = 1.0f / tan_theta;
+    return fma(tan_theta * Float(kInvSqrtPi), exp(-cot * cot), 1.0f + erf(cot));
   }
 
   /// Roughness 1: a point of the hemisphere's part that `wo` sees is halfway to a point of a spherical cap.
   /// Source: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023, listing 3.
   static NORRSKEN_INLINE Vec3f sample_cap(const Vec3f& stretched, const SinCos& phi, Float u) {
     const Vec3f wo = normalize(stretched);
-    const Float z = fma(Float(1.0f) - u, Float(1.0f) + wo.z, -wo.z);
-    const Float radius = sqrt(max(fnma(z, z, Float(1.0f)), Float(0.0f)));
+    const Float z = fma(1.0f - u, 1.0f + wo.z, -wo.z);
+    const Float radius = sqrt(max(fnma(z, z, 1.0f), 0.0f));
     return {fma(radius, phi.cos, wo.x), fma(radius, phi.sin, wo.y), z + wo.z};
   }
 
@@ -113,25 +112,25 @@ struct Microfacet {
     const Float radius2 = fma(stretched.x, stretched.x, stretched.y * stretched.y);
     const Float radius = sqrt(radius2);
     const Float tan_theta = radius / stretched.z;
-    const Float end = erf(Float(1.0f) / tan_theta);  // the steepest slope that is not turned away
+    const Float end = erf(1.0f / tan_theta);  // the steepest slope that is not turned away
     constexpr float kMargin = 1e-6f;
     const Float share = min(max(u.x, Float(kMargin)), Float(1.0f - kMargin));
     const Float target = share * beckmann_visible_area(tan_theta);
     // Exact where the view is grazing, the hardest case.
-    Float x = fnma(end + Float(1.0f), erf(sqrt(-log(share))), end);
+    Float x = fnma(end + 1.0f, erf(sqrt(-log(share))), end);
     for (int i = 0; i < 3; ++i) {
       const Float slope = erf_inv(x);
-      const Float excess = fma(tan_theta * Float(kInvSqrtPi), exp(-slope * slope), Float(1.0f) + x) - target;
-      x = x - excess / fnma(slope, tan_theta, Float(1.0f));
+      const Float excess = fma(tan_theta * Float(kInvSqrtPi), exp(-slope * slope), 1.0f + x) - target;
+      x = x - excess / fnma(slope, tan_theta, 1.0f);
       x = min(max(x, Float(-kLastErf)), Float(kLastErf));
     }
     const Float along = erf_inv(x);
-    const Float across = erf_inv(min(max(fma(u.y, Float(2.0f), Float(-1.0f)), Float(-kLastErf)), Float(kLastErf)));
-    const Mask tilted = radius > Float(0.0f);
-    const Float inv_radius = Float(1.0f) / select(tilted, radius, Float(1.0f));
-    const Float cos_phi = select(tilted, stretched.x * inv_radius, Float(1.0f));
+    const Float across = erf_inv(min(max(fma(u.y, 2.0f, -1.0f), Float(-kLastErf)), Float(kLastErf)));
+    const Mask tilted = radius > 0.0f;
+    const Float inv_radius = 1.0f / select(tilted, radius, 1.0f);
+    const Float cos_phi = select(tilted, stretched.x * inv_radius, 1.0f);
     const Float sin_phi = stretched.y * inv_radius;
-    return {fms(sin_phi, across, cos_phi * along), -fma(cos_phi, across, sin_phi * along), Float(1.0f)};
+    return {fms(sin_phi, across, cos_phi * along), -fma(cos_phi, across, sin_phi * along), 1.0f};
   }
 
   static constexpr float kInvSqrtPi = 0.564189583547756f;
@@ -140,7 +139,7 @@ struct Microfacet {
 
 /// From the floats that `Roughness` (microfacet_host.h) is stored as: two scalars, and 1 for GGX.
 NORRSKEN_INLINE Microfacet load_microfacet(const ParameterReader& p, std::uint32_t k) {
-  return {max(p.scalar(k), Float(kMinAlpha)), max(p.scalar(k + 2), Float(kMinAlpha)), p.number(k + 4) > Float(0.5f)};
+  return {max(p.scalar(k), Float(kMinAlpha)), max(p.scalar(k + 2), Float(kMinAlpha)), p.number(k + 4) > 0.5f};
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

@@ -80,10 +80,11 @@ TEST(MitsubasValues, AreOurs) {
     ASSERT_TRUE(sides.front);
     // The tables of rough plastic differ a little.
     const double tolerance = plugin == "roughplastic" ? 1e-3 : 2e-5;
-    const Vec3f wi = v.below ? below : above, value = sides.front->evaluate(wo, wi);
-    EXPECT_NEAR(double(value.x.v), v.value[0], tolerance * v.value[0]);
-    EXPECT_NEAR(double(value.y.v), v.value[1], tolerance * v.value[1]);
-    EXPECT_NEAR(double(value.z.v), v.value[2], tolerance * v.value[2]);
+    const Vec3f wi = v.below ? below : above;
+    const Color value = sides.front->evaluate(wo, wi);
+    EXPECT_NEAR(double(value.r.v), v.value[0], tolerance * v.value[0]);
+    EXPECT_NEAR(double(value.g.v), v.value[1], tolerance * v.value[1]);
+    EXPECT_NEAR(double(value.b.v), v.value[2], tolerance * v.value[2]);
     EXPECT_NEAR(double(sides.front->pdf_sa(wo, wi)), v.pdf_sa, 4e-3 * v.pdf_sa);
   }
 }

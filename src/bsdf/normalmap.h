@@ -14,9 +14,9 @@ namespace norrsken::NORRSKEN_ISA {
 /// Stored: the words inside, flags, the normal map (color).
 struct NormalMap {
   static NORRSKEN_INLINE Vec3f normal(const ParameterReader& p, const Unperturbed&) {
-    const Vec3f c = p.color(3);
-    const auto decoded = [](Float x) { return fms(Float(2.0f), x, Float(1.0f)); };
-    return {decoded(c.x), decoded(c.y), decoded(c.z)};
+    const Color c = p.color(3);
+    const auto decoded = [](Float x) { return fms(2.0f, x, 1.0f); };
+    return {decoded(c.r), decoded(c.g), decoded(c.b)};
   }
 };
 

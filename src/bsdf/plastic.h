@@ -22,29 +22,28 @@ struct Plastic {
   using Parameters = Coat;
   static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return load_coat(p); }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
-    const Float crossing = (Float(1.0f) - reflectance(p, wo)) * (Float(1.0f) - reflectance(p, wi));
-    return p.inside * zero_unless(wo.z > Float(0.0f), crossing * cosine_hemisphere_pdf_sa(wi.z));
+  static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
+    const Float crossing = (1.0f - reflectance(p, wo)) * (1.0f - reflectance(p, wi));
+    return p.inside * zero_unless(wo.z > 0.0f, crossing * cosine_hemisphere_pdf_sa(wi.z));
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
-    const Float diffuse_prob = Float(1.0f) - p.specular_prob(reflectance(p, wo));
-    return zero_unless(wo.z > Float(0.0f), diffuse_prob * cosine_hemisphere_pdf_sa(wi.z));
+    const Float diffuse_prob = 1.0f - p.specular_prob(reflectance(p, wo));
+    return zero_unless(wo.z > 0.0f, diffuse_prob * cosine_hemisphere_pdf_sa(wi.z));
   }
 
   static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float lobe, Vec2f direction) {
     const Float reflected = reflectance(p, wo);
-    const Float specular_prob = p.specular_prob(reflected), diffuse_prob = Float(1.0f) - specular_prob;
+    const Float specular_prob = p.specular_prob(reflected), diffuse_prob = 1.0f - specular_prob;
     const Mask specular = lobe < specular_prob;
     const Vec3f diffuse = warp_to_cosine_hemisphere(direction);
     const Vec3f wi = select(specular, Vec3f{-wo.x, -wo.y, wo.z}, diffuse);
-    const Float crossing = (Float(1.0f) - reflected) * (Float(1.0f) - reflectance(p, wi)) / diffuse_prob;
+    const Float crossing = (1.0f - reflected) * (1.0f - reflectance(p, wi)) / diffuse_prob;
     return {wi, select(specular, p.specular_reflectance * (reflected / specular_prob), p.inside * crossing),
-            zero_unless(!specular, diffuse_prob * cosine_hemisphere_pdf_sa(wi.z)),
-            (wo.z > Float(0.0f)) & (wi.z > Float(0.0f))};
+            zero_unless(!specular, diffuse_prob * cosine_hemisphere_pdf_sa(wi.z)), (wo.z > 0.0f) & (wi.z > 0.0f)};
   }
 
-  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.diffuse_reflectance; }
+  static NORRSKEN_INLINE Color albedo(const Parameters& p) { return p.diffuse_reflectance; }
 
  private:
   static NORRSKEN_INLINE Float reflectance(const Parameters& p, const Vec3f& w) {

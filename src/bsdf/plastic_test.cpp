@@ -112,7 +112,7 @@ TEST(Plastic, WithoutACoatIsDiffuse) {
       isa_host::load_bsdf("plastic", R"(<float name="int_ior" value="1.3"/><float name="ext_ior" value="1.3"/>
                     <rgb name="diffuse_reflectance" value="0.8, 0.5, 0.3"/>)");
   const Vec3f wo{Float(0.6f), Float(0.0f), Float(0.8f)}, wi{Float(0.0f), Float(-0.8f), Float(0.6f)};
-  EXPECT_NEAR(sides.front->evaluate(wo, wi).x.v, 0.8f * 0.6f / float(M_PI), 4e-5f);
+  EXPECT_NEAR(sides.front->evaluate(wo, wi).r.v, 0.8f * 0.6f / float(M_PI), 4e-5f);
 }
 
 /// With a base that gives everything back and colours it again each time, no light is lost.
@@ -127,7 +127,7 @@ TEST(Plastic, WhiteGivesEverythingBack) {
     double sum = 0;
     for (int i = 0; i < kSamples; ++i) {
       const float lobe = unit(random), x = unit(random), y = unit(random);
-      sum += double(sides.front->sample(wo, lobe, {Float(x), Float(y)}).weight.x.v) / kSamples;
+      sum += double(sides.front->sample(wo, lobe, {Float(x), Float(y)}).weight.r.v) / kSamples;
     }
     EXPECT_NEAR(sum, 1.0, 3e-3) << cos_o;
   }
@@ -138,7 +138,7 @@ TEST(RoughPlastic, OfLittleRoughnessLetsAsMuchInAsSmoothPlastic) {
   const auto rough = isa_host::load_bsdf("roughplastic", R"(<float name="alpha" value="0.001"/>)");
   const auto smooth = isa_host::load_bsdf("plastic", "");
   const Vec3f wo{Float(0.6f), Float(0.0f), Float(0.8f)}, wi{Float(0.0f), Float(-0.8f), Float(0.6f)};
-  EXPECT_NEAR(rough.front->evaluate(wo, wi).x.v / smooth.front->evaluate(wo, wi).x.v, 1.0, 0.03);
+  EXPECT_NEAR(rough.front->evaluate(wo, wi).r.v / smooth.front->evaluate(wo, wi).r.v, 1.0, 0.03);
 }
 
 }  // namespace

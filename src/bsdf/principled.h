@@ -22,7 +22,7 @@ struct Principled {
   static constexpr bool kUsesLobe = true;
 
   struct Parameters {
-    Vec3f base_color;
+    Color base_color;
     Microfacet facets;
     ClearcoatNormals coat;
     Float roughness, metallic, spec_tint, sheen, sheen_tint, flatness, clearcoat;
@@ -37,23 +37,23 @@ struct Principled {
     p.base_color = r.color(0), p.roughness = r.scalar(4);
     p.facets = facets_of(p.roughness, r.scalar(6));
     p.metallic = r.scalar(8);
-    const Float spec_trans = r.scalar(10), dielectric = Float(1.0f) - p.metallic;
-    p.base = dielectric * (Float(1.0f) - spec_trans), p.glass = dielectric * spec_trans;
+    const Float spec_trans = r.scalar(10), dielectric = 1.0f - p.metallic;
+    p.base = dielectric * (1.0f - spec_trans), p.glass = dielectric * spec_trans;
     p.spec_tint = r.scalar(12), p.sheen = r.scalar(14), p.sheen_tint = r.scalar(16), p.flatness = r.scalar(18);
     p.clearcoat = r.scalar(20);
-    const Float coat_alpha = mix(Float(0.1f), Float(0.001f), r.scalar(22));
+    const Float coat_alpha = mix(0.1f, 0.001f, r.scalar(22));
     p.coat = {coat_alpha * coat_alpha};
-    p.eta = r.number(24), p.front = r.number(25) == Float(0.0f);
-    const Float behind = select(p.glass > Float(0.0f), Float(1.0f), Float(0.0f));
+    p.eta = r.number(24), p.front = r.number(25) == 0.0f;
+    const Float behind = select(p.glass > 0.0f, Float(1.0f), Float(0.0f));
     const Float diffuse = zero_unless(p.front, p.base * r.number(26));
     const Float specular = select(p.front, r.number(27), behind);
-    const Float clearcoat = zero_unless(p.front, Float(0.25f) * p.clearcoat * r.number(28));
-    const Float scale = Float(1.0f) / max(diffuse + specular + clearcoat, Float(1e-20f));
+    const Float clearcoat = zero_unless(p.front, 0.25f * p.clearcoat * r.number(28));
+    const Float scale = 1.0f / max(diffuse + specular + clearcoat, 1e-20f);
     p.diffuse_prob = diffuse * scale, p.specular_prob = specular * scale, p.clearcoat_prob = clearcoat * scale;
     return p;
   }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
+  static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     return evaluate(p, wo, wi, facet_between(p, wo, wi));
   }
 
@@ -68,7 +68,7 @@ struct Principled {
     if (any(clearcoat)) m = select(clearcoat, p.coat.sample(direction), m);
     const Float cos_o = dot(wo, m);
     const FresnelDielectric fresnel = fresnel_dielectric(cos_o, p.eta);
-    const Float among_facets = (lobe - above_coat) / max(p.specular_prob, Float(1e-20f));
+    const Float among_facets = (lobe - above_coat) / max(p.specular_prob, 1e-20f);
     const Mask refracts = (!(diffuse | clearcoat)) & (among_facets < transmitted_share(p, fresnel.reflectance));
     Vec3f wi = select(refracts, refract(wo, m, cos_o, fresnel.cos_t, p.eta), reflect(wo, m, cos_o));
     wi = select(diffuse, warp_to_cosine_hemisphere(direction), wi);
@@ -76,14 +76,13 @@ struct Principled {
     const Facet f = facet_between(p, wo, wi);
     const Float pdf = pdf_sa(p, wo, wi, f);
     // Facets that face away may lead where another lobe has a density.
-    const Mask valid = (pdf > Float(0.0f)) & (diffuse | f.possible) & (refracts ^ (wi.z > Float(0.0f)));
-    return {wi, evaluate(p, wo, wi, f) * (Float(1.0f) / select(valid, pdf, Float(1.0f))), pdf, valid,
-            select(refracts, p.eta, Float(1.0f))};
+    const Mask valid = (pdf > 0.0f) & (diffuse | f.possible) & (refracts ^ (wi.z > 0.0f));
+    return {wi, evaluate(p, wo, wi, f) * (1.0f / select(valid, pdf, 1.0f)), pdf, valid, select(refracts, p.eta, 1.0f)};
   }
 
   static NORRSKEN_INLINE Float refracted_eta(const Parameters& p) { return p.eta; }
 
-  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.base_color; }
+  static NORRSKEN_INLINE Color albedo(const Parameters& p) { return p.base_color; }
 
  private:
   /// A facet that sends light from wi to wo.
@@ -96,69 +95,68 @@ struct Principled {
 
   static NORRSKEN_INLINE Facet facet_between(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     Facet f;
-    f.reflects = wi.z > Float(0.0f);
-    const Vec3f m = normalize(fma(wi, select(f.reflects, Float(1.0f), p.eta), wo));
-    f.m = m * copysign(Float(1.0f), m.z);
+    f.reflects = wi.z > 0.0f;
+    const Vec3f m = normalize(fma(wi, select(f.reflects, 1.0f, p.eta), wo));
+    f.m = m * copysign(1.0f, m.z);
     f.cos_o = dot(wo, f.m), f.cos_i = dot(wi, f.m);
-    f.possible = (wo.z > Float(0.0f)) & (f.cos_o > Float(0.0f)) & (f.cos_i * wi.z > Float(0.0f));
+    f.possible = (wo.z > 0.0f) & (f.cos_o > 0.0f) & (f.cos_i * wi.z > 0.0f);
     const FresnelDielectric fresnel = fresnel_dielectric(f.cos_o, p.eta);
     f.reflectance = fresnel.reflectance, f.cos_t = fresnel.cos_t;
     // Walter et al. 2007, equations 14 and 17.
     const Float sum = fma(p.eta, f.cos_i, f.cos_o), cos_i = abs(f.cos_i);
-    f.jacobian = select(f.reflects, Float(0.25f) / cos_i, p.eta * p.eta * cos_i / (sum * sum));
+    f.jacobian = select(f.reflects, 0.25f / cos_i, p.eta * p.eta * cos_i / (sum * sum));
     return f;
   }
 
   static NORRSKEN_INLINE Float transmitted_share(const Parameters& p, Float reflectance) {
-    return select(p.front, p.glass, Float(1.0f)) * (Float(1.0f) - reflectance);
+    return select(p.front, p.glass, 1.0f) * (1.0f - reflectance);
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const Parameters& p, const Vec3f& wo, const Vec3f& wi, const Facet& f) {
     const Float transmitted = transmitted_share(p, f.reflectance);
-    const Float share = p.specular_prob * select(f.reflects, Float(1.0f) - transmitted, transmitted);
+    const Float share = p.specular_prob * select(f.reflects, 1.0f - transmitted, transmitted);
     Float facets = share * p.facets.visible_pdf_sa(wo, f.m);
-    const Mask coated = f.reflects & (p.clearcoat_prob > Float(0.0f));
+    const Mask coated = f.reflects & (p.clearcoat_prob > 0.0f);
     if (any(coated)) facets += zero_unless(coated, p.clearcoat_prob * p.coat.density(f.m) * f.m.z);
-    const Float diffuse = zero_unless(wo.z > Float(0.0f), p.diffuse_prob * cosine_hemisphere_pdf_sa(wi.z));
-    return zero_unless(f.possible & (facets > Float(0.0f)), facets * f.jacobian) + diffuse;
+    const Float diffuse = zero_unless(wo.z > 0.0f, p.diffuse_prob * cosine_hemisphere_pdf_sa(wi.z));
+    return zero_unless(f.possible & (facets > 0.0f), facets * f.jacobian) + diffuse;
   }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi, const Facet& f) {
+  static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi, const Facet& f) {
     const Float masked = p.facets.density(f.m) * p.facets.masking(wo, f.m) * p.facets.masking(wi, f.m);
-    const Mask reflects = f.possible & f.reflects & (p.eta != Float(1.0f));
-    const Float reflected = zero_unless(reflects, masked * Float(0.25f) / wo.z);
-    Vec3f value = reflectance(p, f) * reflected;
+    const Mask reflects = f.possible & f.reflects & (p.eta != 1.0f);
+    const Float reflected = zero_unless(reflects, masked * 0.25f / wo.z);
+    Color value = reflectance(p, f) * reflected;
 
-    const Mask refracts = f.possible & !f.reflects & (p.glass > Float(0.0f));
+    const Mask refracts = f.possible & !f.reflects & (p.glass > 0.0f);
     if (any(refracts)) {
       // Radiance loses the eta^2 that the Jacobian gains.
       const Float facing = f.cos_o * f.jacobian / (p.eta * p.eta * wo.z);
-      const Float through = zero_unless(refracts, p.glass * (Float(1.0f) - f.reflectance) * masked * facing);
-      value = fma(Vec3f{sqrt(p.base_color.x), sqrt(p.base_color.y), sqrt(p.base_color.z)}, through, value);
+      const Float through = zero_unless(refracts, p.glass * (1.0f - f.reflectance) * masked * facing);
+      value = fma(Color{sqrt(p.base_color.r), sqrt(p.base_color.g), sqrt(p.base_color.b)}, through, value);
     }
 
-    const Mask coated = f.possible & f.reflects & p.front & (p.clearcoat > Float(0.0f));
+    const Mask coated = f.possible & f.reflects & p.front & (p.clearcoat > 0.0f);
     if (any(coated)) {
-      const Microfacet masks{Float(0.25f), Float(0.25f), p.facets.ggx};
-      const Float fresnel = mix(schlick_weight(f.cos_o, f.cos_t, p.eta), Float(1.0f), Float(0.04f));
-      const Float coat = Float(0.25f) * p.clearcoat * fresnel * p.coat.density(f.m) * masks.masking(wo, f.m) *
-                         masks.masking(wi, f.m) * wi.z;
+      const Microfacet masks{0.25f, 0.25f, p.facets.ggx};
+      const Float fresnel = mix(schlick_weight(f.cos_o, f.cos_t, p.eta), 1.0f, 0.04f);
+      const Float coat =
+          0.25f * p.clearcoat * fresnel * p.coat.density(f.m) * masks.masking(wo, f.m) * masks.masking(wi, f.m) * wi.z;
       value = value + grey(zero_unless(coated, coat));
     }
 
-    const Mask above = (wo.z > Float(0.0f)) & f.reflects & p.front & (p.base > Float(0.0f));
-    const Float diffuse = p.base * Float(kInvPi) * diffuse_shape(p.roughness, p.flatness, wo.z, wi.z, f.cos_i);
-    const Vec3f sheen = sheen_color(p.base_color, p.sheen * (Float(1.0f) - p.metallic), p.sheen_tint, f.cos_i);
+    const Mask above = (wo.z > 0.0f) & f.reflects & p.front & (p.base > 0.0f);
+    const Float diffuse = p.base * kInvPi * diffuse_shape(p.roughness, p.flatness, wo.z, wi.z, f.cos_i);
+    const Color sheen = sheen_color(p.base_color, p.sheen * (1.0f - p.metallic), p.sheen_tint, f.cos_i);
     return select(above, fma(fma(p.base_color, diffuse, sheen), wi.z, value), value);
   }
 
   /// Dielectric, metal by Schlick's approximation, and a tinted dielectric by the same.
-  static NORRSKEN_INLINE Vec3f reflectance(const Parameters& p, const Facet& f) {
-    const Float weight = schlick_weight(f.cos_o, f.cos_t, p.eta), dielectric = Float(1.0f) - p.metallic;
-    const Vec3f white = grey(Float(1.0f));
-    const Vec3f tinted = mix(tint_of(p.base_color) * normal_reflectance(p.eta), white, weight);
-    const Vec3f mixed = mix(grey(f.reflectance), tinted, p.spec_tint) * dielectric;
-    const Vec3f outside = fma(mix(p.base_color, white, weight), p.metallic, mixed);
+  static NORRSKEN_INLINE Color reflectance(const Parameters& p, const Facet& f) {
+    const Float weight = schlick_weight(f.cos_o, f.cos_t, p.eta), dielectric = 1.0f - p.metallic;
+    const Color tinted = mix(tint_of(p.base_color) * normal_reflectance(p.eta), white(), weight);
+    const Color mixed = mix(grey(f.reflectance), tinted, p.spec_tint) * dielectric;
+    const Color outside = fma(mix(p.base_color, white(), weight), p.metallic, mixed);
     return select(p.front, outside, grey(p.glass * f.reflectance));
   }
 };

@@ -135,16 +135,16 @@ TEST(Principled, MetalHasTheBaseColor) {
       isa_host::load_bsdf("principled", R"(<rgb name="base_color" value="0.9, 0.6, 0.2"/>)" + number("metallic", "1"));
   const auto white = isa_host::load_bsdf("principled", number("base_color", "1") + number("metallic", "1"));
   const Vec3f up{Float(0.0f), Float(0.0f), Float(1.0f)};
-  const Vec3f a = gold.front->evaluate(up, up), b = white.front->evaluate(up, up);
-  EXPECT_NEAR(a.x.v / b.x.v, 0.9f, 1e-5f);
-  EXPECT_NEAR(a.z.v / b.z.v, 0.2f, 1e-5f);
+  const isa_host::Color a = gold.front->evaluate(up, up), b = white.front->evaluate(up, up);
+  EXPECT_NEAR(a.r.v / b.r.v, 0.9f, 1e-5f);
+  EXPECT_NEAR(a.b.v / b.b.v, 0.2f, 1e-5f);
 }
 
 TEST(PrincipledThin, DiffuseLightPassesInProportion) {
   const auto sheet = isa_host::load_bsdf("principledthin", number("base_color", "0.6") + number("diff_trans", "2"));
   const Vec3f through{kIn.x, kIn.y, -kIn.z};
-  EXPECT_NEAR(sheet.front->evaluate(kOut, through).x.v, 0.6f * 0.6f / float(M_PI), 1e-6f);
-  EXPECT_EQ(sheet.front->evaluate(kOut, kIn).x.v, 0.0f);
+  EXPECT_NEAR(sheet.front->evaluate(kOut, through).r.v, 0.6f * 0.6f / float(M_PI), 1e-6f);
+  EXPECT_EQ(sheet.front->evaluate(kOut, kIn).r.v, 0.0f);
 }
 
 }  // namespace

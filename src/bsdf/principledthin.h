@@ -22,7 +22,7 @@ struct PrincipledThin {
   static constexpr bool kUsesLobe = true;
 
   struct Parameters {
-    Vec3f base_color;
+    Color base_color;
     Microfacet facets, facets_behind;
     Float roughness, spec_trans, spec_tint, sheen, sheen_tint, flatness, eta;
     Float reflected, transmitted;  ///< weights of what is diffuse
@@ -34,35 +34,35 @@ struct PrincipledThin {
     p.base_color = r.color(0), p.roughness = r.scalar(4), p.eta = r.scalar(18);
     const Float anisotropic = r.scalar(6);
     p.facets = facets_of(p.roughness, anisotropic);
-    p.facets_behind = facets_of(p.roughness * fma(p.eta, Float(0.65f), Float(-0.35f)), anisotropic);
+    p.facets_behind = facets_of(p.roughness * fma(p.eta, 0.65f, -0.35f), anisotropic);
     p.spec_trans = r.scalar(8), p.spec_tint = r.scalar(10);
     p.sheen = r.scalar(12), p.sheen_tint = r.scalar(14), p.flatness = r.scalar(16);
-    const Float through = r.scalar(20) * Float(0.5f), diffuse = Float(1.0f) - p.spec_trans;
-    p.reflected = diffuse * (Float(1.0f) - through), p.transmitted = diffuse * through;
-    const Float half = Float(0.5f) * p.spec_trans;
+    const Float through = r.scalar(20) * 0.5f, diffuse = 1.0f - p.spec_trans;
+    p.reflected = diffuse * (1.0f - through), p.transmitted = diffuse * through;
+    const Float half = 0.5f * p.spec_trans;
     const Float probs[] = {half * r.number(22), half * r.number(23), p.reflected * r.number(24),
                            p.transmitted * r.number(25)};
-    const Float scale = Float(1.0f) / max(probs[0] + probs[1] + probs[2] + probs[3], Float(1e-20f));
+    const Float scale = 1.0f / max(probs[0] + probs[1] + probs[2] + probs[3], 1e-20f);
     p.specular_reflection_prob = probs[0] * scale, p.specular_transmission_prob = probs[1] * scale;
     p.reflection_prob = probs[2] * scale, p.transmission_prob = probs[3] * scale;
     return p;
   }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
+  static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     const Facet f = facet_between(wo, wi);
     const Microfacet facets = facets_on_side(p, f.reflects);
     const Float fresnel = fresnel_dielectric(f.cos_o, p.eta).reflectance;
     const Float masked = facets.density(f.m) * facets.masking(wo, f.m) * facets.masking(wi, f.m);
-    const Float specular = zero_unless(f.possible, p.spec_trans * masked * Float(0.25f) / wo.z);
-    const Vec3f transmittance = p.base_color * (Float(1.0f) - fresnel);
-    const Vec3f value = select(f.reflects, reflectance(p, f.cos_o, fresnel), transmittance) * specular;
+    const Float specular = zero_unless(f.possible, p.spec_trans * masked * 0.25f / wo.z);
+    const Color transmittance = p.base_color * (1.0f - fresnel);
+    const Color value = select(f.reflects, reflectance(p, f.cos_o, fresnel), transmittance) * specular;
 
     const Float cos_i = abs(wi.z);
     const Float cos_d = dot(wi, f.m);
     const Float shape = diffuse_shape(p.roughness, p.flatness, wo.z, cos_i, cos_d);
-    const Float diffuse = select(f.reflects, p.reflected * shape, p.transmitted) * Float(kInvPi);
-    const Vec3f sheen = sheen_color(p.base_color, zero_unless(f.reflects, p.sheen * p.reflected), p.sheen_tint, cos_d);
-    const Float lit = zero_unless(wo.z > Float(0.0f), cos_i);
+    const Float diffuse = select(f.reflects, p.reflected * shape, p.transmitted) * kInvPi;
+    const Color sheen = sheen_color(p.base_color, zero_unless(f.reflects, p.sheen * p.reflected), p.sheen_tint, cos_d);
+    const Float lit = zero_unless(wo.z > 0.0f, cos_i);
     return fma(fma(p.base_color, diffuse, sheen), lit, value);
   }
 
@@ -70,16 +70,16 @@ struct PrincipledThin {
     const Facet f = facet_between(wo, wi);
     const Float prob = select(f.reflects, p.specular_reflection_prob, p.specular_transmission_prob);
     // Walter et al. 2007, equation 14.
-    const Float specular = prob * facets_on_side(p, f.reflects).visible_pdf_sa(wo, f.m) * Float(0.25f) / f.cos_o;
-    const Float diffuse = select(f.reflects, p.reflection_prob, p.transmission_prob) * abs(wi.z) * Float(kInvPi);
-    return zero_unless(f.possible & (prob > Float(0.0f)), specular) + zero_unless(wo.z > Float(0.0f), diffuse);
+    const Float specular = prob * facets_on_side(p, f.reflects).visible_pdf_sa(wo, f.m) * 0.25f / f.cos_o;
+    const Float diffuse = select(f.reflects, p.reflection_prob, p.transmission_prob) * abs(wi.z) * kInvPi;
+    return zero_unless(f.possible & (prob > 0.0f), specular) + zero_unless(wo.z > 0.0f, diffuse);
   }
 
   static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float lobe, Vec2f direction) {
     const Float specular = p.specular_reflection_prob + p.specular_transmission_prob;
     const Mask from_facets = lobe < specular;
     const Mask reflects =
-        select(from_facets, p.specular_reflection_prob - lobe, specular + p.reflection_prob - lobe) > Float(0.0f);
+        select(from_facets, p.specular_reflection_prob - lobe, specular + p.reflection_prob - lobe) > 0.0f;
     const Vec3f m = facets_on_side(p, reflects).sample_visible(wo, direction);
     const Vec3f mirrored = reflect(wo, m, dot(wo, m));
     const Vec3f above = select(from_facets, mirrored, warp_to_cosine_hemisphere(direction));
@@ -87,11 +87,11 @@ struct PrincipledThin {
     const Float pdf = pdf_sa(p, wo, wi);
     // Facets that face away may lead where the diffuse lobe has a density.
     const Mask possible = (!from_facets) | facet_between(wo, wi).possible;
-    const Mask valid = (pdf > Float(0.0f)) & possible & (above.z > Float(0.0f));
-    return {wi, evaluate(p, wo, wi) * (Float(1.0f) / select(valid, pdf, Float(1.0f))), pdf, valid};
+    const Mask valid = (pdf > 0.0f) & possible & (above.z > 0.0f);
+    return {wi, evaluate(p, wo, wi) * (1.0f / select(valid, pdf, 1.0f)), pdf, valid};
   }
 
-  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.base_color; }
+  static NORRSKEN_INLINE Color albedo(const Parameters& p) { return p.base_color; }
 
  private:
   /// The facet that reflects wi, or what it came from before it was turned to the other side, to wo.
@@ -104,9 +104,9 @@ struct PrincipledThin {
   static NORRSKEN_INLINE Facet facet_between(const Vec3f& wo, const Vec3f& wi) {
     Facet f;
     f.m = normalize(wo + Vec3f{wi.x, wi.y, abs(wi.z)});
-    f.reflects = wi.z > Float(0.0f);
+    f.reflects = wi.z > 0.0f;
     f.cos_o = dot(wo, f.m);
-    f.possible = (wo.z > Float(0.0f)) & (f.cos_o > Float(0.0f)) & (dot(wi, f.m) * wi.z > Float(0.0f));
+    f.possible = (wo.z > 0.0f) & (f.cos_o > 0.0f) & (dot(wi, f.m) * wi.z > 0.0f);
     return f;
   }
 
@@ -115,9 +115,9 @@ struct PrincipledThin {
             select(reflects, p.facets.alpha_v, p.facets_behind.alpha_v), p.facets.ggx};
   }
 
-  static NORRSKEN_INLINE Vec3f reflectance(const Parameters& p, Float cos_o, Float fresnel) {
+  static NORRSKEN_INLINE Color reflectance(const Parameters& p, Float cos_o, Float fresnel) {
     const Float weight = schlick_weight(cos_o, fresnel_dielectric(cos_o, p.eta).cos_t, p.eta);
-    const Vec3f tinted = mix(tint_of(p.base_color) * normal_reflectance(p.eta), grey(Float(1.0f)), weight);
+    const Color tinted = mix(tint_of(p.base_color) * normal_reflectance(p.eta), white(), weight);
     return mix(grey(fresnel), tinted, p.spec_tint);
   }
 };

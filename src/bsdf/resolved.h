@@ -27,14 +27,14 @@ struct Unperturbed {
 class Choice {
  public:
   /// `number` is random, in [0, 1).
-  static NORRSKEN_INLINE Choice by_chance(Float number) { return {number, UInt(0u), Float(1.0f), false}; }
-  static NORRSKEN_INLINE Choice by_code(std::uint32_t code) { return {Float(0.0f), UInt(code), Float(1.0f), true}; }
+  static NORRSKEN_INLINE Choice by_chance(Float number) { return {number, 0u, 1.0f, false}; }
+  static NORRSKEN_INLINE Choice by_code(std::uint32_t code) { return {0.0f, UInt(code), 1.0f, true}; }
 
   /// Takes `first` with this probability, else `second`.
   NORRSKEN_INLINE UInt take(Float prob, UInt first, UInt second, Mask active) {
-    const Float rest = Float(1.0f) - prob;
+    const Float rest = 1.0f - prob;
     if (coded_) {
-      const Mask take = (code_ & UInt(1u)) == UInt(0u);
+      const Mask take = (code_ & 1u) == 0u;
       weight_ = select(active, weight_ * select(take, prob, rest), weight_);
       code_ = select(active, shift_right<1>(code_), code_);
       return select(take, first, second);
@@ -42,15 +42,15 @@ class Choice {
     const Mask take = number_ < prob;
     const Float rescaled = select(take, number_ / prob, (number_ - prob) / rest);
     // Rounding may reach 1. What was certain leaves nothing to divide by, and has used up nothing.
-    const Mask uncertain = active & (prob > Float(0.0f)) & (rest > Float(0.0f));
-    number_ = min(select(uncertain, rescaled, number_), Float(0x1.fffffep-1f));
+    const Mask uncertain = active & (prob > 0.0f) & (rest > 0.0f);
+    number_ = min(select(uncertain, rescaled, number_), 0x1.fffffep-1f);
     return select(take, first, second);
   }
 
   /// Product of the probabilities of the ways that the code took; 1 by chance.
   Float weight() const { return weight_; }
   /// Whether this is a way to a model: the code has no bits beyond the choices met.
-  NORRSKEN_INLINE Mask is_way() const { return (code_ == UInt(0u)) & (weight_ > Float(0.0f)); }
+  NORRSKEN_INLINE Mask is_way() const { return (code_ == 0u) & (weight_ > 0.0f); }
 
  private:
   NORRSKEN_INLINE Choice(Float number, UInt code, Float weight, bool coded)

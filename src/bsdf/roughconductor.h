@@ -21,7 +21,7 @@ struct RoughConductor {
   static constexpr bool kUsesLobe = false;
 
   struct Parameters {
-    Vec3f specular_reflectance, eta, k;
+    Color specular_reflectance, eta, k;
     Microfacet facets;
   };
 
@@ -29,10 +29,10 @@ struct RoughConductor {
     return {p.color(0), p.color(4), p.color(8), load_microfacet(p, 12)};
   }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
+  static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     const Vec3f m = normalize(wo + wi);
     const Float masking = p.facets.masking(wo, m) * p.facets.masking(wi, m);
-    const Float value = p.facets.density(m) * masking / (Float(4.0f) * wo.z);
+    const Float value = p.facets.density(m) * masking / (4.0f * wo.z);
     return tint(p, dot(wo, m)) * zero_unless(are_above(wo, wi), value);
   }
 
@@ -47,19 +47,19 @@ struct RoughConductor {
     const Vec3f wi = reflect(wo, m, cos_i);
     const Float masking = p.facets.masking(wo, m) * p.facets.masking(wi, m) / p.facets.exact_masking(wo);
     const Float pdf = reflected_pdf_sa(p, wo, m);
-    return {wi, tint(p, cos_i) * masking, pdf, are_above(wo, wi) & (pdf > Float(0.0f))};
+    return {wi, tint(p, cos_i) * masking, pdf, are_above(wo, wi) & (pdf > 0.0f)};
   }
 
-  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return tint(p, Float(1.0f)); }
+  static NORRSKEN_INLINE Color albedo(const Parameters& p) { return tint(p, 1.0f); }
 
  private:
-  static NORRSKEN_INLINE Mask are_above(const Vec3f& wo, const Vec3f& wi) { return min(wo.z, wi.z) > Float(0.0f); }
-  static NORRSKEN_INLINE Vec3f tint(const Parameters& p, Float cos_i) {
+  static NORRSKEN_INLINE Mask are_above(const Vec3f& wo, const Vec3f& wi) { return min(wo.z, wi.z) > 0.0f; }
+  static NORRSKEN_INLINE Color tint(const Parameters& p, Float cos_i) {
     return p.specular_reflectance * fresnel_conductor(cos_i, p.eta, p.k);
   }
   /// Walter et al. 2007, equations 14 and 17, with the density of visible normals: the cosines to m cancel.
   static NORRSKEN_INLINE Float reflected_pdf_sa(const Parameters& p, const Vec3f& wo, const Vec3f& m) {
-    return p.facets.density(m) * p.facets.exact_masking(wo) / (Float(4.0f) * wo.z);
+    return p.facets.density(m) * p.facets.exact_masking(wo) / (4.0f * wo.z);
   }
 };
 

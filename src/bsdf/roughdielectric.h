@@ -22,7 +22,7 @@ struct RoughDielectric {
   static constexpr bool kUsesLobe = true;
 
   struct Parameters {
-    Vec3f specular_reflectance, specular_transmittance;
+    Color specular_reflectance, specular_transmittance;
     Microfacet facets;
     Float eta;  ///< of the other side over this side
   };
@@ -31,18 +31,18 @@ struct RoughDielectric {
     return {p.color(0), p.color(4), load_microfacet(p, 8), p.number(13)};
   }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
+  static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     const Facet f = facet_between(p, wo, wi);
     const Float masking = p.facets.masking(wo, f.m) * p.facets.masking(wi, f.m);
     // Radiance loses the eta^2 that the solid angle gains.
-    const Float factor = select(f.reflects, Float(1.0f), Float(1.0f) / (p.eta * p.eta));
+    const Float factor = select(f.reflects, 1.0f, 1.0f / (p.eta * p.eta));
     const Float value = masking * factor * scattered_density(p, wo, f);
-    return tint(p, f.reflects) * zero_unless((wo.z > Float(0.0f)) & (masking > Float(0.0f)), value);
+    return tint(p, f.reflects) * zero_unless((wo.z > 0.0f) & (masking > 0.0f), value);
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     const Facet f = facet_between(p, wo, wi);
-    const Mask seen = (wo.z > Float(0.0f)) & (f.cos_o > Float(0.0f)) & (f.cos_i * wi.z > Float(0.0f));
+    const Mask seen = (wo.z > 0.0f) & (f.cos_o > 0.0f) & (f.cos_i * wi.z > 0.0f);
     return zero_unless(seen, p.facets.exact_masking(wo) * scattered_density(p, wo, f));
   }
 
@@ -57,16 +57,15 @@ struct RoughDielectric {
     const Vec3f wi = select(f.reflects, reflect(wo, f.m, f.cos_o), refract(wo, f.m, f.cos_o, fresnel.cos_t, p.eta));
     const Float exact = p.facets.exact_masking(wo);
     const Float masking = p.facets.masking(wo, f.m) * p.facets.masking(wi, f.m) / exact;
-    const Float factor = select(f.reflects, Float(1.0f), Float(1.0f) / (p.eta * p.eta));
+    const Float factor = select(f.reflects, 1.0f, 1.0f / (p.eta * p.eta));
     const Float pdf = exact * scattered_density(p, wo, f);
-    const Mask seen = (wo.z > Float(0.0f)) & (f.cos_o > Float(0.0f)) & (f.cos_i * wi.z > Float(0.0f));
-    return {wi, tint(p, f.reflects) * (masking * factor), pdf, seen & (pdf > Float(0.0f)),
-            select(f.reflects, Float(1.0f), p.eta)};
+    const Mask seen = (wo.z > 0.0f) & (f.cos_o > 0.0f) & (f.cos_i * wi.z > 0.0f);
+    return {wi, tint(p, f.reflects) * (masking * factor), pdf, seen & (pdf > 0.0f), select(f.reflects, 1.0f, p.eta)};
   }
 
   static NORRSKEN_INLINE Float refracted_eta(const Parameters& p) { return p.eta; }
 
-  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.specular_transmittance; }
+  static NORRSKEN_INLINE Color albedo(const Parameters& p) { return p.specular_transmittance; }
 
  private:
   /// A facet that sends light from wi to wo.
@@ -79,9 +78,9 @@ struct RoughDielectric {
 
   static NORRSKEN_INLINE Facet facet_between(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     Facet f;
-    f.reflects = wi.z > Float(0.0f);
-    const Vec3f m = normalize(fma(wi, select(f.reflects, Float(1.0f), p.eta), wo));
-    f.m = m * copysign(Float(1.0f), m.z);
+    f.reflects = wi.z > 0.0f;
+    const Vec3f m = normalize(fma(wi, select(f.reflects, 1.0f, p.eta), wo));
+    f.m = m * copysign(1.0f, m.z);
     f.cos_o = dot(wo, f.m), f.cos_i = dot(wi, f.m);
     f.reflectance = fresnel_dielectric(f.cos_o, p.eta).reflectance;
     return f;
@@ -91,12 +90,12 @@ struct RoughDielectric {
   /// refracted light, times the solid angle of m over that of wi (Walter et al. 2007, equations 14 and 17).
   static NORRSKEN_INLINE Float scattered_density(const Parameters& p, const Vec3f& wo, const Facet& f) {
     const Float sum = fma(p.eta, f.cos_i, f.cos_o), ratio = p.eta / sum;
-    const Float share = select(f.reflects, f.reflectance, Float(1.0f) - f.reflectance);
-    const Float seen_jacobian = select(f.reflects, Float(0.25f), ratio * ratio * abs(f.cos_i) * f.cos_o);
+    const Float share = select(f.reflects, f.reflectance, 1.0f - f.reflectance);
+    const Float seen_jacobian = select(f.reflects, 0.25f, ratio * ratio * abs(f.cos_i) * f.cos_o);
     return p.facets.density(f.m) * share * seen_jacobian / wo.z;
   }
 
-  static NORRSKEN_INLINE Vec3f tint(const Parameters& p, Mask reflects) {
+  static NORRSKEN_INLINE Color tint(const Parameters& p, Mask reflects) {
     return select(reflects, p.specular_reflectance, p.specular_transmittance);
   }
 };

@@ -33,36 +33,36 @@ struct RoughPlastic {
 
   static NORRSKEN_INLINE Parameters load(const ParameterReader& p) {
     const Float alpha = max(p.number(kCoatFloats), Float(kMinAlpha));
-    const Mask ggx = p.number(kCoatFloats + 1) > Float(0.5f);
+    const Mask ggx = p.number(kCoatFloats + 1) > 0.5f;
     return {load_coat(p), {alpha, alpha, ggx}, p.scene.parameters, p.offset + UInt(kCoatFloats + 2), p.active};
   }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
+  static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     return evaluate(p, wo, wi, transmittance(p, wo.z));
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
-    return pdf_sa(p, wo, wi, p.coat.specular_prob(Float(1.0f) - transmittance(p, wo.z)));
+    return pdf_sa(p, wo, wi, p.coat.specular_prob(1.0f - transmittance(p, wo.z)));
   }
 
   static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float lobe, Vec2f direction) {
-    const Float through = transmittance(p, wo.z), specular_prob = p.coat.specular_prob(Float(1.0f) - through);
+    const Float through = transmittance(p, wo.z), specular_prob = p.coat.specular_prob(1.0f - through);
     const Vec3f m = p.facets.sample_visible(wo, direction);
     const Vec3f wi = select(lobe < specular_prob, reflect(wo, m, dot(wo, m)), warp_to_cosine_hemisphere(direction));
     const Float pdf = pdf_sa(p, wo, wi, specular_prob);
-    return {wi, evaluate(p, wo, wi, through) * (Float(1.0f) / pdf), pdf, pdf > Float(0.0f)};
+    return {wi, evaluate(p, wo, wi, through) * (1.0f / pdf), pdf, pdf > 0.0f};
   }
 
-  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.coat.diffuse_reflectance; }
+  static NORRSKEN_INLINE Color albedo(const Parameters& p) { return p.coat.diffuse_reflectance; }
 
  private:
-  static NORRSKEN_INLINE Mask are_above(const Vec3f& wo, const Vec3f& wi) { return min(wo.z, wi.z) > Float(0.0f); }
+  static NORRSKEN_INLINE Mask are_above(const Vec3f& wo, const Vec3f& wi) { return min(wo.z, wi.z) > 0.0f; }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi, Float through) {
+  static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi, Float through) {
     const Vec3f m = normalize(wo + wi);
     const Float masking = p.facets.masking(wo, m) * p.facets.masking(wi, m);
     const Float reflectance = fresnel_dielectric(dot(wo, m), p.coat.eta).reflectance;
-    const Float specular = reflectance * p.facets.density(m) * masking / (Float(4.0f) * wo.z);
+    const Float specular = reflectance * p.facets.density(m) * masking / (4.0f * wo.z);
     const Float crossing = through * transmittance(p, wi.z) * cosine_hemisphere_pdf_sa(wi.z);
     const Mask above = are_above(wo, wi);
     return fma(p.coat.specular_reflectance, zero_unless(above, specular), p.coat.inside * zero_unless(above, crossing));
@@ -71,13 +71,13 @@ struct RoughPlastic {
   static NORRSKEN_INLINE Float pdf_sa(const Parameters& p, const Vec3f& wo, const Vec3f& wi, Float specular_prob) {
     const Vec3f m = normalize(wo + wi);
     // Walter et al. 2007, equations 14 and 17: 1 / (4 cos).
-    const Float specular = p.facets.visible_pdf_sa(wo, m) / (Float(4.0f) * dot(wo, m));
+    const Float specular = p.facets.visible_pdf_sa(wo, m) / (4.0f * dot(wo, m));
     const Float diffuse = cosine_hemisphere_pdf_sa(wi.z);
     return zero_unless(are_above(wo, wi), fma(specular_prob, specular - diffuse, diffuse));
   }
 
   static NORRSKEN_INLINE Float transmittance(const Parameters& p, Float cos_theta) {
-    const Float x = min(max(cos_theta, Float(0.0f)), Float(1.0f)) * Float(kTransmittances - 1);
+    const Float x = min(max(cos_theta, 0.0f), 1.0f) * Float(kTransmittances - 1);
     const Float below = min(floor(x), Float(kTransmittances - 2));
     const UInt entry = p.entry + to_uint(below);
     const Float a = gather(p.table, entry, p.active), b = gather(p.table + 1, entry, p.active);

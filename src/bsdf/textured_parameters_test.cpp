@@ -70,14 +70,14 @@ std::vector<float> figures_of(const LoadedBsdf& bsdf) {
     const float r = std::sqrt(1 - z * z);
     return Vec3f{Float(r * std::cos(phi)), Float(r * std::sin(phi)), Float(z)};
   };
-  const auto add = [&](const Vec3f& v) { figures.insert(figures.end(), {v.x.v, v.y.v, v.z.v}); };
+  const auto add = [&](const Color& c) { figures.insert(figures.end(), {c.r.v, c.g.v, c.b.v}); };
   for (int i = 0; i < 100; ++i) {
     const Vec3f wo = direction(0.1f), wi = direction(-0.95f);
     add(bsdf.evaluate(wo, wi));
     figures.push_back(bsdf.pdf_sa(wo, wi));
     const float lobe = unit(random), x = unit(random), y = unit(random);
     const BsdfSample s = bsdf.sample(wo, lobe, {Float(x), Float(y)});
-    add(s.valid.v ? s.weight : Vec3f{});
+    add(s.valid.v ? s.weight : black());
   }
   return figures;
 }

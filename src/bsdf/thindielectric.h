@@ -19,28 +19,26 @@ struct ThinDielectric {
   static constexpr bool kUsesLobe = true;
 
   struct Parameters {
-    Vec3f specular_reflectance, specular_transmittance;
+    Color specular_reflectance, specular_transmittance;
     Float eta;  ///< of the sheet over its surroundings
   };
 
   static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0), p.color(4), p.number(8)}; }
 
-  static NORRSKEN_INLINE Vec3f evaluate(const Parameters&, const Vec3f&, const Vec3f&) {
-    return {Float(0.0f), Float(0.0f), Float(0.0f)};
-  }
+  static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return {0.0f, 0.0f, 0.0f}; }
 
-  static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return Float(0.0f); }
+  static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return 0.0f; }
 
   static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float lobe, Vec2f) {
     const Float r = fresnel_dielectric(wo.z, p.eta).reflectance;
-    const Mask reflects = lobe < (r + r) / (Float(1.0f) + r);
+    const Mask reflects = lobe < (r + r) / (1.0f + r);
     return {{-wo.x, -wo.y, select(reflects, wo.z, -wo.z)},
             select(reflects, p.specular_reflectance, p.specular_transmittance),
-            Float(0.0f),
-            wo.z > Float(0.0f)};
+            0.0f,
+            wo.z > 0.0f};
   }
 
-  static NORRSKEN_INLINE Vec3f albedo(const Parameters& p) { return p.specular_transmittance; }
+  static NORRSKEN_INLINE Color albedo(const Parameters& p) { return p.specular_transmittance; }
 };
 
 }  // namespace norrsken::NORRSKEN_ISA

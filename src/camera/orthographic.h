@@ -27,7 +27,7 @@ struct Orthographic {
     // What a pixel covers, perpendicular to the rays, is the volume that it sweeps along a unit of them.
     return {fma(forward, -t, point),
             {dot(q, cross(dv, forward)) / volume, dot(q, cross(forward, du)) / volume},
-            Float(1.0f) / abs(volume),
+            1.0f / abs(volume),
             between_clip_planes(camera, t + Float(camera.near_clip))};
   }
 };

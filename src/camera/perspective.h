@@ -19,7 +19,7 @@ struct Perspective {
   }
 
   static NORRSKEN_INLINE CameraConnection connect(const CameraRecord& camera, const Vec3f& point, Vec2f) {
-    return connect_through(camera, {Float(0.0f), Float(0.0f), Float(0.0f)}, point);
+    return connect_through(camera, {0.0f, 0.0f, 0.0f}, point);
   }
 };
 

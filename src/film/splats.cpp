@@ -1,7 +1,6 @@
 #include "film/splats.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace norrsken {
@@ -44,13 +43,12 @@ void Splats::cover(double position, std::uint32_t size, Footprint& footprint) co
   }
 }
 
-void Splats::add(const WaveJob& job, const Queue& splats, DroppedSamples& dropped) {
+void Splats::add(const WaveJob& job, const Queue<stored::Splat>& splats, DroppedSamples& dropped) {
   const auto width = static_cast<std::uint32_t>(settings_.width), height = static_cast<std::uint32_t>(settings_.height);
   const std::uint32_t stride = job.pixel_stride();
   for (std::uint32_t i = 0; i < splats.count; ++i) {
-    const auto slot = std::bit_cast<std::uint32_t>(splats.field(kSplatSlot)[i]);
+    const auto [film, color, slot] = splats[i];
     const std::uint32_t sample = job.first_sample + slot / stride;
-    const float color[3] = {splats.field(kSplatRed)[i], splats.field(kSplatGreen)[i], splats.field(kSplatBlue)[i]};
     if (!std::isfinite(color[0]) || !std::isfinite(color[1]) || !std::isfinite(color[2])) {
       if (dropped.count < DroppedSamples::kKept) {
         const std::uint32_t path = slot % stride;
@@ -60,8 +58,8 @@ void Splats::add(const WaveJob& job, const Queue& splats, DroppedSamples& droppe
       ++dropped.count;
       continue;
     }
-    cover(static_cast<double>(splats.field(kSplatFilmX)[i]), width, columns_);
-    cover(static_cast<double>(splats.field(kSplatFilmY)[i]), height, rows_);
+    cover(static_cast<double>(film[0]), width, columns_);
+    cover(static_cast<double>(film[1]), height, rows_);
     for (std::size_t y = 0; y < rows_.weights.size(); ++y) {
       for (std::size_t x = 0; x < columns_.weights.size(); ++x) {
         const double weight = rows_.weights[y] * columns_.weights[x];

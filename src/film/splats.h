@@ -28,7 +28,7 @@ class Splats {
 
   /// Adds a part of a wave's splats, in their order. Those that are not finite are left out and counted, told by the
   /// number of the path in place of the pixel's.
-  void add(const WaveJob& job, const Queue& splats, DroppedSamples& dropped);
+  void add(const WaveJob& job, const Queue<stored::Splat>& splats, DroppedSamples& dropped);
   /// Counts a wave's paths, when all their splats have been added.
   void count_paths(const WaveJob& job);
 

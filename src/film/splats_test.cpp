@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -21,19 +20,17 @@ struct Splat {
 /// A queue of splats, G twice and B four times as bright as R.
 struct SplatQueue {
   AlignedVector<float> values;
-  Queue queue;
+  Queue<stored::Splat> queue;
 
   explicit SplatQueue(const std::vector<Splat>& splats) {
     const auto n = static_cast<std::uint32_t>(splats.size());
-    values.resize(std::size_t{kSplatFieldCount} * n);
-    queue = {values.data(), n, n, n};
+    values.resize(std::size_t{queue.kFields} * n);
+    queue = {values.data(), n, n};
+    queue.count = n;
     for (std::uint32_t i = 0; i < n; ++i) {
-      queue.field(kSplatFilmX)[i] = splats[i].x;
-      queue.field(kSplatFilmY)[i] = splats[i].y;
-      queue.field(kSplatRed)[i] = splats[i].value;
-      queue.field(kSplatGreen)[i] = 2 * splats[i].value;
-      queue.field(kSplatBlue)[i] = 4 * splats[i].value;
-      queue.field(kSplatSlot)[i] = std::bit_cast<float>(splats[i].slot);
+      const float value = splats[i].value;
+      queue.set(
+          i, {.film = {splats[i].x, splats[i].y}, .radiance = {value, 2 * value, 4 * value}, .slot = splats[i].slot});
     }
   }
 };

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/aligned.h"
-#include "isa/entry.h"
+#include "isa/probe_testing.h"
 #include "norrsken/scene.h"
 #include "render/scene_view.h"
 #include "render/wave_arena.h"
@@ -59,23 +59,11 @@ inline std::uint32_t word_of(float f) {
 }
 
 /// Fills everything behind a queue's end with values that would do harm if they were looked at.
-inline void poison_tail(Queue& q, std::uint32_t fields) {
-  for (std::uint32_t k = 0; k < fields; ++k) {
+template <class Record>
+void poison_tail(Queue<Record>& q) {
+  for (std::uint32_t k = 0; k < q.kFields; ++k) {
     for (std::uint32_t i = q.count; i < q.count + kMaxLanes; ++i) q.field(k)[i] = float_of(0x7fabcdefu);
   }
-}
-
-/// Records of a queue in the order of their slots (and within a slot of their place), field by field.
-inline std::vector<std::vector<float>> sorted_records(const Queue& q, std::uint32_t fields, std::uint32_t slot_field) {
-  std::vector<std::vector<float>> records;
-  for (std::uint32_t i = 0; i < q.count; ++i) {
-    std::vector<float> record;
-    for (std::uint32_t k = 0; k < fields; ++k) record.push_back(q.field(k)[i]);
-    records.push_back(std::move(record));
-  }
-  std::stable_sort(records.begin(), records.end(),
-                   [&](const auto& a, const auto& b) { return word_of(a[slot_field]) < word_of(b[slot_field]); });
-  return records;
 }
 
 /// Rays from random points of a box in random directions.

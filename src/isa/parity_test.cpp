@@ -8,7 +8,8 @@
 namespace norrsken {
 namespace {
 
-const KernelEntry& oracle() { return *find_kernels("scalar"); }
+const KernelEntry& oracle_kernels() { return *find_kernels("scalar"); }
+const KernelProbe& oracle() { return probe_of(oracle_kernels()); }
 
 /// Lengths around every register's: empty, partly filled, full, one more, several and a bit.
 std::vector<std::uint32_t> tail_lengths() {
@@ -29,49 +30,76 @@ struct Made {
     memory.slots.count = kSlots;
     std::mt19937 random(99);
     for (std::uint32_t s = 0; s < kSlots; ++s) {
-      for (std::uint32_t k = kSlotRed; k <= kSlotBlue; ++k) memory.slots.field(k)[s] = 0.0f;
-      memory.slots.field(kSlotKey)[s] = float_of(static_cast<std::uint32_t>(random()) >> 2);
-      memory.slots.field(kSlotIndex)[s] = float_of(s % 7);
+      stored::Slot slot{};
+      slot.key = static_cast<std::uint32_t>(random()) >> 2;
+      slot.index = s % 7;
+      memory.slots.set(s, slot);
     }
     const double lower[3] = {0, -5, -4.9}, upper[3] = {10, 5, 4.8};
     const RandomRays made(kSlots, 5, lower, upper);
     const RayArrays& a = made.arrays();
     std::uniform_real_distribution<float> unit(0.1f, 1.0f);
-    Queue& q = memory.rays;
     for (std::uint32_t i = 0; i < rays; ++i) {
-      const float* sources[6] = {a.ox, a.oy, a.oz, a.dx, a.dy, a.dz};
-      for (std::uint32_t k = 0; k < 6; ++k) q.field(k)[i] = sources[k][i];
-      for (std::uint32_t k = kRayThroughputRed; k <= kRayThroughputBlue; ++k) q.field(k)[i] = unit(random);
-      q.field(kRayPdf)[i] = i % 3 == 0 ? 0.0f : unit(random);
-      q.field(kRayEta2)[i] = 1 + unit(random);
-      q.field(kRaySlot)[i] = float_of((i * 37) % kSlots);
+      stored::Ray ray{};
+      ray.origin = {a.ox[i], a.oy[i], a.oz[i]};
+      ray.direction = {a.dx[i], a.dy[i], a.dz[i]};
+      for (float& channel : ray.throughput) channel = unit(random);
+      ray.pdf_sa = i % 3 == 0 ? 0.0f : unit(random);
+      ray.eta2 = 1 + unit(random);
+      ray.slot = (i * 37) % kSlots;
+      memory.rays.set(i, ray);
     }
-    q.count = rays;
-    poison_tail(q, kRayFieldCount);
+    memory.rays.count = rays;
+    poison_tail(memory.rays);
   }
 };
 
 bool close(float a, float b, float scale) { return std::abs(a - b) <= 2e-4f * std::max(scale, std::abs(a)) || a == b; }
 
-/// Compares queues record by record; `discrete` fields must be equal bits. Records that only one side has, or that
-/// went another way, are counted and may be one in 200.
-void expect_equal_queues(const Queue& got, const Queue& wanted, std::uint32_t fields, std::uint32_t slot_field,
-                         const std::vector<std::uint32_t>& discrete, const std::string& what) {
-  const auto a = sorted_records(got, fields, slot_field), b = sorted_records(wanted, fields, slot_field);
+std::uint32_t slot_of(const stored::Ray& ray) { return ray.slot; }
+std::uint32_t slot_of(const stored::Hit& hit) { return hit.ray.slot; }
+std::uint32_t slot_of(const stored::ShadowRay& ray) { return ray.slot; }
+
+/// What must be the same bits.
+std::vector<std::uint32_t> discrete(const stored::Hit& hit) { return {hit.primitive, hit.material, hit.instance}; }
+std::vector<std::uint32_t> discrete(const auto&) { return {}; }
+
+/// Records of a queue in the order of their slots (and within a slot of their place).
+template <class Record>
+std::vector<Record> sorted_records(const Queue<Record>& q) {
+  std::vector<Record> records;
+  for (std::uint32_t i = 0; i < q.count; ++i) records.push_back(q[i]);
+  std::stable_sort(records.begin(), records.end(),
+                   [](const Record& a, const Record& b) { return slot_of(a) < slot_of(b); });
+  return records;
+}
+
+/// Words that are integers, as floats, are tiny or not a number: these compare by `discrete`.
+template <class Record>
+bool close_records(const Record& a, const Record& b) {
+  if (discrete(a) != discrete(b)) return false;
+  float wa[Queue<Record>::kFields], wb[Queue<Record>::kFields];
+  std::memcpy(wa, &a, sizeof a), std::memcpy(wb, &b, sizeof b);
+  for (std::size_t k = 0; k < Queue<Record>::kFields; ++k) {
+    if (!close(wa[k], wb[k], 1.0f) && word_of(wa[k]) != word_of(wb[k])) return false;
+  }
+  return true;
+}
+
+/// Compares queues record by record. Records that only one side has, or that went another way, are counted and may be one
+/// in 200.
+template <class Record>
+void expect_equal_queues(const Queue<Record>& got, const Queue<Record>& wanted, const std::string& what) {
+  const auto a = sorted_records(got), b = sorted_records(wanted);
   std::size_t strays = 0, i = 0, k = 0;
   while (i < a.size() && k < b.size()) {
-    const std::uint32_t sa = word_of(a[i][slot_field]), sb = word_of(b[k][slot_field]);
+    const std::uint32_t sa = slot_of(a[i]), sb = slot_of(b[k]);
     if (sa != sb) {
       ++strays;
       sa < sb ? ++i : ++k;
       continue;
     }
-    bool same = true;
-    for (std::uint32_t f = 0; f < fields; ++f) {
-      const bool is_discrete = std::find(discrete.begin(), discrete.end(), f) != discrete.end();
-      same = same && (is_discrete ? word_of(a[i][f]) == word_of(b[k][f]) : close(a[i][f], b[k][f], 1.0f));
-    }
-    strays += same ? 0 : 1;
+    strays += close_records(a[i], b[k]) ? 0 : 1;
     ++i, ++k;
   }
   strays += (a.size() - i) + (b.size() - k);
@@ -79,11 +107,11 @@ void expect_equal_queues(const Queue& got, const Queue& wanted, std::uint32_t fi
       << what << ": " << a.size() << " and " << b.size() << " records";
 }
 
-void expect_equal_slots(const Queue& got, const Queue& wanted, const std::string& what) {
+void expect_equal_slots(const Queue<stored::Slot>& got, const Queue<stored::Slot>& wanted, const std::string& what) {
   std::size_t strays = 0;
   for (std::uint32_t s = 0; s < got.count; ++s) {
-    for (std::uint32_t k = kSlotRed; k <= kSlotBlue; ++k) {
-      strays += close(got.field(k)[s], wanted.field(k)[s], 0.1f) ? 0u : 1u;
+    for (std::size_t k = 0; k < 3; ++k) {
+      strays += close(got[s].radiance[k], wanted[s].radiance[k], 0.1f) ? 0u : 1u;
     }
   }
   EXPECT_LE(strays, got.count / 100) << what;
@@ -106,9 +134,9 @@ class Parity : public testing::TestWithParam<AccelKind> {
 
   /// Hits of the made-up rays, found by the oracle, in both arenas alike.
   void find_hits(Made& made) const {
-    oracle().intersect_closest(scene(), 2, ~1u, made.memory.rays, made.memory);
-    for (Queue& q : made.memory.hits) poison_tail(q, kHitFieldCount);
-    poison_tail(made.memory.light_hits, kHitFieldCount);
+    oracle().intersect_closest(scene(), false, ~1u, made.memory.rays, made.memory.slots, made.memory.found);
+    for (auto& q : made.memory.found.hits) poison_tail(q);
+    poison_tail(made.memory.found.light_hits);
   }
 
   std::unique_ptr<ViewedScene> viewed_;
@@ -121,18 +149,16 @@ TEST_P(Parity, IntersectClosest) {
   for (const KernelEntry* kernels : wide_kernels()) {
     for (const std::uint32_t n : tail_lengths()) {
       Made a(n), b(n);
-      kernels->intersect_closest(scene(), 2, ~1u, a.memory.rays, a.memory);
-      oracle().intersect_closest(scene(), 2, ~1u, b.memory.rays, b.memory);
+      probe_of(*kernels).intersect_closest(scene(), false, ~1u, a.memory.rays, a.memory.slots, a.memory.found);
+      oracle().intersect_closest(scene(), false, ~1u, b.memory.rays, b.memory.slots, b.memory.found);
       for (const std::uint32_t kind : {kDiffuse, kConductor}) {
-        expect_equal_queues(a.memory.hits[kind], b.memory.hits[kind], kHitFieldCount, kRaySlot,
-                            {kRaySlot, kHitPrimitive, kHitMaterial}, label(*kernels, n));
+        expect_equal_queues(a.memory.found.hits[kind], b.memory.found.hits[kind], label(*kernels, n));
       }
-      expect_equal_queues(a.memory.light_hits, b.memory.light_hits, kHitFieldCount, kRaySlot, {kRaySlot, kHitMaterial},
-                          label(*kernels, n));
+      expect_equal_queues(a.memory.found.light_hits, b.memory.found.light_hits, label(*kernels, n));
       if (n == 1000) {
-        EXPECT_GT(b.memory.hits[kDiffuse].count, 900u);
-        EXPECT_GT(b.memory.hits[kConductor].count, 10u);
-        EXPECT_GT(b.memory.light_hits.count, 5u);
+        EXPECT_GT(b.memory.found.hits[kDiffuse].count, 900u);
+        EXPECT_GT(b.memory.found.hits[kConductor].count, 10u);
+        EXPECT_GT(b.memory.found.light_hits.count, 5u);
       }
     }
   }
@@ -142,10 +168,9 @@ TEST_P(Parity, IntersectEmittersFindsWhatIntersectClosestFinds) {
   for (const KernelEntry* const* k = usable_kernels(); *k != nullptr; ++k) {
     for (const std::uint32_t n : tail_lengths()) {
       Made a(n), b(n);
-      (*k)->intersect_emitters(scene(), a.memory.rays, a.memory);
-      oracle().intersect_closest(scene(), 2, 0u, b.memory.rays, b.memory);
-      expect_equal_queues(a.memory.light_hits, b.memory.light_hits, kHitFieldCount, kRaySlot, {kRaySlot, kHitMaterial},
-                          label(**k, n));
+      probe_of(**k).intersect_emitters(scene(), a.memory.rays, a.memory.slots, a.memory.found);
+      oracle().intersect_closest(scene(), false, 0u, b.memory.rays, b.memory.slots, b.memory.found);
+      expect_equal_queues(a.memory.found.light_hits, b.memory.found.light_hits, label(**k, n));
     }
   }
 }
@@ -157,25 +182,22 @@ TEST_P(Parity, ShadeSurfaceAndIntersectShadow) {
         for (const bool roulette : {false, true}) {
           Made a(n), b(n);
           find_hits(a), find_hits(b);
-          const Queue& hits_a = a.memory.hits[static_cast<std::size_t>(kind)];
-          const Queue& hits_b = b.memory.hits[static_cast<std::size_t>(kind)];
+          Queue<stored::Hit>& hits_a = a.memory.found.hits[static_cast<std::size_t>(kind)];
+          Queue<stored::Hit>& hits_b = b.memory.found.hits[static_cast<std::size_t>(kind)];
           // Two shadow rays per hit must fit.
-          if (2 * hits_a.count > a.memory.shadow_rays.capacity)
-            const_cast<Queue&>(hits_a).count = const_cast<Queue&>(hits_b).count = 500;
-          kernels->shade_surface(scene(), kind, 2, roulette, hits_a, a.memory.slots, a.memory.shadow_rays,
-                                 a.memory.next_rays);
+          if (2 * hits_a.count > a.memory.shadow_rays.capacity()) hits_a.count = hits_b.count = 500;
+          probe_of(*kernels).shade_surface(scene(), kind, 2, roulette, hits_a, a.memory.slots, a.memory.shadow_rays,
+                                           a.memory.next_rays);
           oracle().shade_surface(scene(), kind, 2, roulette, hits_b, b.memory.slots, b.memory.shadow_rays,
                                  b.memory.next_rays);
-          expect_equal_queues(a.memory.next_rays, b.memory.next_rays, kRayFieldCount, kRaySlot, {kRaySlot},
-                              label(*kernels, n));
-          expect_equal_queues(a.memory.shadow_rays, b.memory.shadow_rays, kShadowFieldCount, kShadowSlot, {kShadowSlot},
-                              label(*kernels, n));
+          expect_equal_queues(a.memory.next_rays, b.memory.next_rays, label(*kernels, n));
+          expect_equal_queues(a.memory.shadow_rays, b.memory.shadow_rays, label(*kernels, n));
           if (n == 1000 && kind == BsdfKind::diffuse) {
             EXPECT_GT(b.memory.shadow_rays.count, 500u);
           }
-          poison_tail(a.memory.shadow_rays, kShadowFieldCount);
-          poison_tail(b.memory.shadow_rays, kShadowFieldCount);
-          kernels->intersect_shadow(scene(), a.memory.shadow_rays, a.memory.slots);
+          poison_tail(a.memory.shadow_rays);
+          poison_tail(b.memory.shadow_rays);
+          probe_of(*kernels).intersect_shadow(scene(), a.memory.shadow_rays, a.memory.slots);
           oracle().intersect_shadow(scene(), b.memory.shadow_rays, b.memory.slots);
           expect_equal_slots(a.memory.slots, b.memory.slots, label(*kernels, n));
         }
@@ -189,8 +211,8 @@ TEST_P(Parity, ShadeEmission) {
     for (const std::uint32_t n : tail_lengths()) {
       Made a(n), b(n);
       find_hits(a), find_hits(b);
-      kernels->shade_emission(scene(), a.memory.light_hits, a.memory.slots);
-      oracle().shade_emission(scene(), b.memory.light_hits, b.memory.slots);
+      probe_of(*kernels).shade_emission(scene(), a.memory.found.light_hits, a.memory.slots);
+      oracle().shade_emission(scene(), b.memory.found.light_hits, b.memory.slots);
       expect_equal_slots(a.memory.slots, b.memory.slots, label(*kernels, n));
     }
   }
@@ -201,13 +223,13 @@ TEST_P(Parity, GenerateCameraRays) {
     for (std::uint32_t width = 1; width <= 2 * kMaxLanes + 1; ++width) {
       Made a(0), b(0);
       const WaveJob job{3, 5, width, 3, 2, 5};
-      kernels->generate_camera_rays(scene(), job, a.memory.slots, a.memory.rays);
+      probe_of(*kernels).generate_camera_rays(scene(), job, a.memory.slots, a.memory.rays);
       oracle().generate_camera_rays(scene(), job, b.memory.slots, b.memory.rays);
       EXPECT_EQ(b.memory.rays.count, width * 3 * 5);
-      expect_equal_queues(a.memory.rays, b.memory.rays, kRayFieldCount, kRaySlot, {kRaySlot}, label(*kernels, width));
+      expect_equal_queues(a.memory.rays, b.memory.rays, label(*kernels, width));
       for (std::uint32_t i = 0; i < a.memory.rays.count; ++i) {
-        const std::uint32_t slot = word_of(b.memory.rays.field(kRaySlot)[i]);
-        ASSERT_EQ(word_of(a.memory.slots.field(kSlotKey)[slot]), word_of(b.memory.slots.field(kSlotKey)[slot]));
+        const std::uint32_t slot = b.memory.rays[i].slot;
+        ASSERT_EQ(a.memory.slots[slot].key, b.memory.slots[slot].key);
       }
     }
   }
@@ -219,10 +241,10 @@ TEST_P(Parity, WholeWaves) {
     WaveCounts counts_a, counts_b;
     const WaveJob job{300, 500, 16, 8, 0, 8};
     kernels->trace_wave(scene(), job, a.memory, counts_a);
-    oracle().trace_wave(scene(), job, b.memory, counts_b);
+    oracle_kernels().trace_wave(scene(), job, b.memory, counts_b);
     double sum_a = 0, sum_b = 0, difference = 0;
     for (std::uint32_t s = 0; s < job.slot_count(); ++s) {
-      const float x = a.memory.slots.field(kSlotGreen)[s], y = b.memory.slots.field(kSlotGreen)[s];
+      const float x = a.memory.slots[s].radiance[1], y = b.memory.slots[s].radiance[1];
       sum_a += x, sum_b += y, difference += std::abs(x - y) > 1e-3f * y ? 1 : 0;
     }
     EXPECT_GT(sum_b, 0);
@@ -247,8 +269,8 @@ void expect_same_bits_as_any_scene(const SceneView& scene, const WaveJob& job) {
     EXPECT_GT(counts_a.shadow_rays, 0u) << (*k)->name;
     EXPECT_EQ(counts_a.shadow_rays, counts_b.shadow_rays) << (*k)->name;
     for (std::uint32_t s = 0; s < job.slot_count(); ++s) {
-      for (std::uint32_t f = kSlotRed; f <= kSlotBlue; ++f) {
-        ASSERT_EQ(word_of(a.memory.slots.field(f)[s]), word_of(b.memory.slots.field(f)[s]))
+      for (std::size_t c = 0; c < 3; ++c) {
+        ASSERT_EQ(word_of(a.memory.slots[s].radiance[c]), word_of(b.memory.slots[s].radiance[c]))
             << (*k)->name << ", slot " << s;
       }
     }
@@ -291,7 +313,7 @@ TEST(SamplerParity, SameBitsInEveryWidth) {
   for (const KernelEntry* kernels : wide_kernels()) {
     for (const SamplerKind kind : {SamplerKind::independent, SamplerKind::sobol}) {
       for (const std::uint32_t dimension : {0u, 9u, 400u}) {
-        kernels->sample_2d(kind, 0x123456789abcdefull, 77, dimension, 1000, x.data(), y.data());
+        probe_of(*kernels).sample_2d(kind, 0x123456789abcdefull, 77, dimension, 1000, x.data(), y.data());
         oracle().sample_2d(kind, 0x123456789abcdefull, 77, dimension, 1000, rx.data(), ry.data());
         for (std::uint32_t i = 0; i < 1000; ++i) {
           ASSERT_EQ(x[i], rx[i]) << kernels->name;

@@ -7,7 +7,6 @@
 #pragma once
 
 #include "light/area_point.h"
-#include "math/affine.h"
 #include "shape/models.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -20,20 +19,18 @@ struct AnalyticAreaLight {
     Float side;  ///< -1 for flipped normals
   };
   static inline Place load(const SceneView& scene, Light light, Mask active) {
-    constexpr std::uint32_t kFloats = sizeof(AnalyticRecord) / sizeof(float);
-    const UInt record = gather_uint(scene.parameters + 1, light.parameters, active) * UInt(kFloats);
-    const auto* words = reinterpret_cast<const float*>(scene.analytics) + sizeof(Placement) / sizeof(float);
-    const Mask flipped = gather_uint(words + 1, record, active) != UInt(0u);
-    return {gather_affine(scene.analytics->place.world_from_local, record, active),
-            gather_affine(scene.analytics->place.local_from_world, record, active), gather_uint(words, record, active),
-            select(flipped, Float(-1.0f), Float(1.0f))};
+    const UInt shape = gather_uint(scene.parameters + 1, light.parameters, active);
+    const Mask flipped = gather(scene.analytics, &AnalyticRecord::flip_normals, shape, active) != 0u;
+    return {gather(scene.analytics, &AnalyticRecord::place, &Placement::world_from_local, shape, active),
+            gather(scene.analytics, &AnalyticRecord::place, &Placement::local_from_world, shape, active),
+            gather(scene.analytics, &AnalyticRecord::kind, shape, active), select(flipped, Float(-1.0f), Float(1.0f))};
   }
 
   template <class Model>
   static NORRSKEN_INLINE Mask lanes_of(const SceneView& scene, AnalyticKind kind, const Place& place, Mask active) {
     const auto number = static_cast<std::uint32_t>(kind);
     const bool occurs = kCanBeSampled<Model> && (scene.analytic_kinds & (1u << number)) != 0;
-    return occurs ? active & (place.kinds == UInt(number)) : Float(1.0f) < Float(0.0f);
+    return occurs ? active & (place.kinds == UInt(number)) : Mask::none();
   }
 
   static NORRSKEN_INLINE Vec3f world_normal(const Place& place, const Vec3f& local) {
@@ -54,8 +51,8 @@ struct AnalyticAreaLight {
                                                 Float distance, Mask active) {
     const Place place = load(scene, light, active);
     const Vec3f local = place.local_from_world.point(fma(direction, distance, reference));
-    Vec3f normal{Float(0.0f), Float(0.0f), Float(1.0f)};
-    Mask sampled = Float(1.0f) < Float(0.0f);
+    Vec3f normal{0.0f, 0.0f, 1.0f};
+    Mask sampled = Mask::none();
 #define NORRSKEN_ANALYTIC(kind, Model)                                                                \
   if (const Mask of_kind = lanes_of<Model>(scene, AnalyticKind::kind, place, active); any(of_kind)) { \
     if constexpr (kCanBeSampled<Model>) {                                                             \
@@ -66,17 +63,17 @@ struct AnalyticAreaLight {
 #include "lists/analytic_shape.def"
 #undef NORRSKEN_ANALYTIC
     const Float cosine = -dot(direction, world_normal(place, normal));
-    return zero_unless(sampled, pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, cosine));
+    return zero_unless(sampled, pdf_sa_from_pdf_area(1.0f / light.area, distance * distance, cosine));
   }
 
   static inline AreaPoint sample_area(const SceneView& scene, Light light, Vec2f u, Mask active) {
     const Place place = load(scene, light, active);
     const UInt texture = light_texture(scene, light.parameters, active);
-    const Mask textured = active & (texture != UInt(0u));
-    const Vec3f zero{Float(0.0f), Float(0.0f), Float(0.0f)};
-    LocalPoint local{zero, {Float(0.0f), Float(0.0f), Float(1.0f)}};
+    const Mask textured = active & (texture != 0u);
+    const Vec3f zero{0.0f, 0.0f, 0.0f};
+    LocalPoint local{zero, {0.0f, 0.0f, 1.0f}};
     TexturePoint on_texture{};
-    Mask sampled = Float(1.0f) < Float(0.0f);
+    Mask sampled = Mask::none();
 #define NORRSKEN_ANALYTIC(kind, Model)                                                              \
   if (const Mask of_kind = lanes_of<Model>(scene, AnalyticKind::kind, place, active); any(of_kind)) \
     sample_kind<Model>(u, any(textured), of_kind, local, on_texture, sampled);
@@ -88,7 +85,7 @@ struct AnalyticAreaLight {
     // What rounding is relative to on a ray's way to the local space and back.
     const Float scale =
         largest(place.world_from_local.magnitude({max(there.x, one), max(there.y, one), max(there.z, one)}));
-    const Vec3f radiance =
+    const Color radiance =
         any(textured) ? select(textured, evaluate_texture(scene, texture, on_texture, textured), light.emission)
                       : light.emission;
     return {point, world_normal(place, local.normal), radiance, scale, sampled};

@@ -25,7 +25,7 @@ struct ConstantEnvironment {
     return emit_from_afar<ConstantEnvironment>(scene, light, position, direction, active);
   }
 
-  static NORRSKEN_INLINE Vec3f radiance(const SceneView&, const Light& light, const Vec3f&, Mask) {
+  static NORRSKEN_INLINE Color radiance(const SceneView&, const Light& light, const Vec3f&, Mask) {
     return light.emission;
   }
 };

@@ -13,12 +13,12 @@ namespace norrsken::NORRSKEN_ISA {
 struct DirectionalLight {
   static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f,
                                             Mask active) {
-    return {fma(light.normal, Float(-2.0f * scene.radius), reference), Float(1.0f), light.emission, active};
+    return {fma(light.normal, Float(-2.0f * scene.radius), reference), 1.0f, light.emission, active};
   }
 
   /// A direction found by other means never is the light's.
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light&, const Vec3f&, const Vec3f&, Float, Mask) {
-    return Float(0.0f);
+    return 0.0f;
   }
 
   static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f position, Vec2f direction,

@@ -14,11 +14,11 @@ namespace norrsken::NORRSKEN_ISA {
 template <class Surface>
 struct AlongNormals {
   static NORRSKEN_INLINE LightSample sample(const SceneView&, const Light&, const Vec3f& reference, Vec2f, Mask) {
-    return {reference, Float(1.0f), {Float(0.0f), Float(0.0f), Float(0.0f)}, Float(1.0f) < Float(0.0f)};
+    return {reference, 1.0f, {0.0f, 0.0f, 0.0f}, Mask::none()};
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light&, const Vec3f&, const Vec3f&, Float, Mask) {
-    return Float(0.0f);
+    return 0.0f;
   }
 
   /// Uniform over the area.

@@ -22,7 +22,7 @@ void for_emitted_rays(const LitScene& scene, const Check& check) {
   for (int i = 0; i < 1000; ++i) {
     const EmittedRay ray = emit_from_lights(scene.view, pair(), pair(), pair(), kOn);
     ASSERT_TRUE(ray.valid.v);
-    check(doubles(ray.origin), doubles(ray.direction), double{ray.weight.x.v});
+    check(doubles(ray.origin), doubles(ray.direction), double{ray.weight.r.v});
   }
 }
 LitScene along_normals(const std::string& shape, const norrsken::testing::Files& files = {}) {

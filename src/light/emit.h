@@ -10,7 +10,7 @@ namespace norrsken::NORRSKEN_ISA {
 struct EmittedRay {
   Vec3f origin;  ///< moved off the light by the rounding bound
   Vec3f direction;
-  Vec3f weight;
+  Color weight;
   Mask valid;
 };
 
@@ -19,9 +19,8 @@ template <class Model>
 NORRSKEN_INLINE EmittedRay emit_from_point(const SceneView& scene, const Light& light, const Vec3f& direction,
                                            Float pdf_sa, Mask active) {
   // So far away that the place is told as precisely as the direction.
-  const Float distance = largest(light.origin) + Float(1.0f);
-  const LightSample seen =
-      Model::sample(scene, light, fma(direction, distance, light.origin), {Float(0.0f), Float(0.0f)}, active);
+  const Float distance = largest(light.origin) + 1.0f;
+  const LightSample seen = Model::sample(scene, light, fma(direction, distance, light.origin), {0.0f, 0.0f}, active);
   return {light.origin, direction, seen.radiance * (distance * distance / pdf_sa), seen.valid};
 }
 
@@ -33,7 +32,7 @@ NORRSKEN_INLINE EmittedRay emit_from_axes(const SceneView& scene, const Light& l
   const Vec3f x = cross(light.edge2, light.normal), y = cross(light.normal, light.edge1),
               z = cross(light.edge1, light.edge2);
   const Float determinant = dot(light.normal, z);
-  const Vec3f along = fma(x, local.x, fma(y, local.y, z * local.z)) * copysign(Float(1.0f), determinant);
+  const Vec3f along = fma(x, local.x, fma(y, local.y, z * local.z)) * copysign(1.0f, determinant);
   const Vec3f direction = normalize(along);
   const Vec3f back{dot(light.edge1, direction), dot(light.edge2, direction), dot(light.normal, direction)};
   const Float length2 = dot(back, back);
@@ -51,7 +50,7 @@ NORRSKEN_INLINE EmittedRay emit_from_afar(const SceneView& scene, const Light& l
   const LightSample seen = Model::sample(scene, light, center, direction, active);
   const Vec3f to_light = normalize(seen.point - center);
   const Vec2f disk = warp_to_disk(position);
-  const Vec3f offset = make_frame(to_light).to_world({disk.x, disk.y, Float(1.0f)});
+  const Vec3f offset = make_frame(to_light).to_world({disk.x, disk.y, 1.0f});
   const Float area(kPi * scene.radius * scene.radius);
   return {fma(offset, Float(scene.radius), center), -to_light, seen.radiance * (area / seen.pdf_sa), seen.valid};
 }

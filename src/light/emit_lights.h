@@ -21,14 +21,14 @@ NORRSKEN_INLINE void add_emission_of_kind(LightKind kind, const SceneView& scene
 inline EmittedRay emit_from_lights(const SceneView& scene, Vec2f pick, Vec2f position, Vec2f direction, Mask active) {
   const UInt light = pick_light(scene, pick, active);
   const UInt kinds = gather_light_kind(scene, light, active);
-  const Vec3f zero{Float(0.0f), Float(0.0f), Float(0.0f)};
-  EmittedRay ray{zero, zero, zero, Float(1.0f) < Float(0.0f)};
+  const Vec3f zero{0.0f, 0.0f, 0.0f};
+  EmittedRay ray{zero, zero, black(), Mask::none()};
 #define NORRSKEN_LIGHT(kind, Model, is_delta)                                  \
   if (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind))) \
     add_emission_of_kind<Model>(LightKind::kind, scene, light, kinds, position, direction, active, ray);
 #include "lists/light.def"
 #undef NORRSKEN_LIGHT
-  ray.weight = ray.weight * (Float(1.0f) / light_prob(scene, light, active));
+  ray.weight = ray.weight * (1.0f / light_prob(scene, light, active));
   return ray;
 }
 

@@ -44,38 +44,39 @@ struct EnvmapEnvironment {
 
   /// The four texels around a place, and where between them it is.
   struct Patch {
-    Vec3f color[2][2];  ///< [row][column]
+    Color color[2][2];  ///< [row][column]
     Float weight[2][2];
   };
   static NORRSKEN_INLINE Patch load_patch(const Map& map, Float column, Float row, Mask active) {
     const float width = static_cast<float>(map.column.cells), last_row = static_cast<float>(map.row.cells);
-    const Float next = column + Float(1.0f);
-    const UInt columns[2] = {to_uint(column), to_uint(select(next < Float(width), next, Float(0.0f)))};
-    const Vec3f luminance{Float(static_cast<float>(kSrgbLuminance[0])), Float(static_cast<float>(kSrgbLuminance[1])),
-                          Float(static_cast<float>(kSrgbLuminance[2]))};
+    const Float next = column + 1.0f;
+    const UInt columns[2] = {to_uint(column), to_uint(select(next < Float(width), next, 0.0f))};
+    const auto share = [](int k) { return Float(static_cast<float>(kSrgbLuminance[k])); };
     Patch patch;
     for (int r = 0; r < 2; ++r) {
       const Float y = row + Float(static_cast<float>(r));
-      const Float inside = min(max(y, Float(0.25f)), Float(last_row - 0.25f));
+      const Float inside = min(max(y, 0.25f), Float(last_row - 0.25f));
       const Float sine = sin_cos_turns(inside * Float(0.5f / last_row)).sin;
       const UInt first = to_uint(y) * UInt(map.column.cells);
       for (int c = 0; c < 2; ++c) {
-        patch.color[r][c] = gather3(map.texels, (first + columns[c]) * UInt(3u), active);
-        patch.weight[r][c] = max(dot(patch.color[r][c], luminance) - Float(map.darkest), Float(0.0f)) * sine;
+        const Color color = gather_color(map.texels, (first + columns[c]) * 3u, active);
+        const Float luminance = fma(color.r, share(0), fma(color.g, share(1), color.b * share(2)));
+        patch.color[r][c] = color;
+        patch.weight[r][c] = max(luminance - Float(map.darkest), 0.0f) * sine;
       }
     }
     return patch;
   }
   template <class T>
   static NORRSKEN_INLINE T mix(const T& a, const T& b, Float t) {
-    return a * (Float(1.0f) - t) + b * t;
+    return a * (1.0f - t) + b * t;
   }
   template <class T>
   static NORRSKEN_INLINE T mix(const T (&v)[2][2], Vec2f at) {
     return mix(mix(v[0][0], v[0][1], at.x), mix(v[1][0], v[1][1], at.x), at.y);
   }
   static NORRSKEN_INLINE Float density(const Map& map, const Patch& patch, Vec2f at, Float sin_theta) {
-    return mix(patch.weight, at) * Float(map.density_scale) / max(sin_theta, Float(0x1p-40f));
+    return mix(patch.weight, at) * Float(map.density_scale) / max(sin_theta, 0x1p-40f);
   }
 
   /// The cell that u falls into, and how far into it, in [0, 1).
@@ -91,23 +92,23 @@ struct EnvmapEnvironment {
     for (Mask open = active & (low != high); any(open); open = active & (low != high)) {
       const UInt middle = shift_right<1>(low + high);
       const Mask before = u < gather(base + 1, offset + middle, open);
-      low = select(open & !before, middle + UInt(1u), low);
+      low = select(open & !before, middle + 1u, low);
       high = select(open & before, middle, high);
     }
     const Float begin = gather(base, offset + low, active), end = gather(base + 1, offset + low, active);
-    return {low, min((u - begin) / max(end - begin, Float(0x1p-126f)), Float(0x1.fffffep-1f))};
+    return {low, min((u - begin) / max(end - begin, 0x1p-126f), 0x1.fffffep-1f)};
   }
 
   /// x of density proportional to a (1 - x) + b x.
   static NORRSKEN_INLINE Float sample_linear(Float u, Float a, Float b) {
     const Float root = sqrt(mix(a * a, b * b, u));
-    return min(u * (a + b) / max(a + root, Float(0x1p-126f)), Float(1.0f));
+    return min(u * (a + b) / max(a + root, 0x1p-126f), 1.0f);
   }
 
   static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f u,
                                             Mask active) {
     const Map map = load(scene);
-    const Cell row = invert(map.rows, UInt(0u), map.row, u.y, active);
+    const Cell row = invert(map.rows, 0u, map.row, u.y, active);
     const UInt columns = UInt(map.columns) + row.index * UInt(map.column.cells + map.column.guide_size + 2);
     const Cell column = invert(map.rows, columns, map.column, u.x, active);
     const Float i = to_float(column.index), j = to_float(row.index);
@@ -117,14 +118,14 @@ struct EnvmapEnvironment {
     at.y = sample_linear(row.inside, w[0][0] + w[0][1], w[1][0] + w[1][1]);
     at.x = sample_linear(column.inside, mix(w[0][0], w[1][0], at.y), mix(w[0][1], w[1][1], at.y));
 
-    const Float turns = (i + at.x + Float(0.5f)) * Float(1.0f / static_cast<float>(map.column.cells));
+    const Float turns = (i + at.x + 0.5f) * Float(1.0f / static_cast<float>(map.column.cells));
     const SinCos phi = sin_cos_turns(turns - floor(turns));
     const SinCos theta = sin_cos_turns((j + at.y) * Float(0.5f / static_cast<float>(map.row.cells)));
     const Vec3f direction =
         fma(light.edge1, phi.sin * theta.sin, fma(light.edge2, theta.cos, light.normal * (-phi.cos * theta.sin)));
     const Float pdf = density(map, patch, at, theta.sin);
     return {fma(direction, Float(2.0f * scene.radius), reference), pdf, light.emission * mix(patch.color, at),
-            active & (pdf > Float(0.0f))};
+            active & (pdf > 0.0f)};
   }
 
   /// What lies in a direction of the world.
@@ -137,10 +138,10 @@ struct EnvmapEnvironment {
     const Float x = dot(light.edge1, direction), y = dot(light.edge2, direction), z = dot(light.normal, direction);
     const Float width(static_cast<float>(map.column.cells)), last_row(static_cast<float>(map.row.cells));
     const Float sin_theta = sqrt(fma(x, x, z * z));
-    const Float u = fma(atan2(x, -z), Float(0.5f * kInvPi) * width, Float(-0.5f));
-    const Float v = min(atan2(sin_theta, y) * Float(kInvPi) * last_row, last_row);
-    const Float column = floor(u), row = min(floor(v), last_row - Float(1.0f));
-    const Float wrapped = select(column < Float(0.0f), column + width, column);
+    const Float u = fma(atan2(x, -z), Float(0.5f * kInvPi) * width, -0.5f);
+    const Float v = min(atan2(sin_theta, y) * kInvPi * last_row, last_row);
+    const Float column = floor(u), row = min(floor(v), last_row - 1.0f);
+    const Float wrapped = select(column < 0.0f, column + width, column);
     return {load_patch(map, wrapped, row, active), {u - column, v - row}, sin_theta};
   }
 
@@ -151,7 +152,7 @@ struct EnvmapEnvironment {
     return density(map, place.patch, place.at, place.sin_theta);
   }
 
-  static NORRSKEN_INLINE Vec3f radiance(const SceneView& scene, const Light& light, const Vec3f& direction,
+  static NORRSKEN_INLINE Color radiance(const SceneView& scene, const Light& light, const Vec3f& direction,
                                         Mask active) {
     const Place place = look_up(load(scene), light, direction, active);
     return light.emission * mix(place.patch.color, place.at);

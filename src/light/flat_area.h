@@ -12,7 +12,7 @@ namespace norrsken::NORRSKEN_ISA {
 
 /// The radiance of textured lanes. Parameters: the texture's word, uv at the first corner and its change along the two
 /// edges (6 floats), the primitive and the shape (words). Not inlined: few scenes need it, and every BSDF would repeat it.
-__attribute__((noinline)) inline Vec3f flat_texture(const SceneView& scene, UInt parameters, Vec3f emission,
+__attribute__((noinline)) inline Color flat_texture(const SceneView& scene, UInt parameters, Color emission,
                                                     UInt texture, Vec2f b, Mask textured) {
   const auto number = [&](int k) { return gather(scene.parameters + k, parameters, textured); };
   const auto word = [&](int k) { return gather_uint(scene.parameters + k, parameters, textured); };
@@ -26,16 +26,13 @@ __attribute__((noinline)) inline Vec3f flat_texture(const SceneView& scene, UInt
 __attribute__((noinline)) inline Vec3f flat_shading_normal(const SceneView& scene, UInt parameters, Vec3f normal,
                                                            Vec2f b, Mask active) {
   const auto word = [&](int k) { return gather_uint(scene.parameters + k, parameters, active); };
-  const auto* shapes = reinterpret_cast<const float*>(scene.shapes) + offsetof(ShapeRecord, smooth) / sizeof(float);
-  const UInt shape = word(8) * UInt(sizeof(ShapeRecord) / sizeof(float));
-  const Mask smooth = active & (gather_uint(shapes, shape, active) != UInt(0u));
-  const auto* vertices = reinterpret_cast<const float*>(scene.triangle_vertices);
-  const UInt first = word(7) * UInt(3u);
+  const Mask smooth = active & (gather(scene.shapes, &ShapeRecord::smooth, word(8), active) != 0u);
+  const UInt first = word(7) * 3u;
   Vec3f normals[3];
   for (int k = 0; k < 3; ++k) {
-    normals[k] = gather3(scene.normals, gather_uint(vertices + k, first, smooth) * UInt(3u), smooth);
+    normals[k] = gather3(scene.normals, gather(scene.triangle_vertices + k, first, smooth) * 3u, smooth);
   }
-  const Vec3f sum = fma(normals[1], b.x, fma(normals[2], b.y, normals[0] * (Float(1.0f) - b.x - b.y)));
+  const Vec3f sum = fma(normals[1], b.x, fma(normals[2], b.y, normals[0] * (1.0f - b.x - b.y)));
   return select(smooth, normalize(sum), normal);
 }
 
@@ -49,7 +46,7 @@ struct FlatAreaLight {
 
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light& light, const Vec3f&, const Vec3f& direction,
                                       Float distance, Mask) {
-    return pdf_sa_from_pdf_area(Float(1.0f) / light.area, distance * distance, -dot(direction, light.normal));
+    return pdf_sa_from_pdf_area(1.0f / light.area, distance * distance, -dot(direction, light.normal));
   }
 
   static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f position, Vec2f direction,
@@ -68,7 +65,7 @@ struct FlatAreaLight {
   /// Interpolated between the vertices' where they have normals; such triangles have parameters.
   static NORRSKEN_INLINE Vec3f shading_normal(const SceneView& scene, const Light& light, Vec2f u,
                                               Mask active) requires is_triangle {
-    const Mask smooth = active & (light.parameters != UInt(kNone));
+    const Mask smooth = active & (light.parameters != kNone);
     if (!scene.any_smooth || none(smooth)) return light.normal;
     return flat_shading_normal(scene, light.parameters, copied(light.normal), barycentric(u), smooth);
   }
@@ -77,9 +74,9 @@ struct FlatAreaLight {
   static NORRSKEN_INLINE Vec2f barycentric(Vec2f u) { return is_triangle ? warp_to_triangle(u) : u; }
 
   template <class Scene>
-  static NORRSKEN_INLINE Vec3f radiance_at(const Scene& scene, const Light& light, Vec2f b, Mask active) {
+  static NORRSKEN_INLINE Color radiance_at(const Scene& scene, const Light& light, Vec2f b, Mask active) {
     const UInt texture = light_texture(scene, light.parameters, active);
-    const Mask textured = active & (texture != UInt(0u));
+    const Mask textured = active & (texture != 0u);
     return any(textured) ? flat_texture(scene, light.parameters, copied(light.emission), texture, b, textured)
                          : light.emission;
   }

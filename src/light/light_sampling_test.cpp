@@ -106,8 +106,8 @@ TEST_P(EveryLight, EnvironmentsAreFoundWhereTheyAreSeen) {
     const LightSample s = scene.sample(kReferences[0], double{u}, double{v});
     const glm::dvec3 to_light = doubles(s.point) - kReferences[0];
     EXPECT_NEAR(glm::length(to_light), 2 * double{scene.view.radius}, 1e-4);
-    const double seen = double{environment_radiance(scene.view, lanes(glm::normalize(to_light)), kOn).y.v};
-    EXPECT_NEAR(double{s.radiance.y.v}, seen, 2e-3 * seen + 1e-5);
+    const double seen = double{environment_radiance(scene.view, lanes(glm::normalize(to_light)), kOn).g.v};
+    EXPECT_NEAR(double{s.radiance.g.v}, seen, 2e-3 * seen + 1e-5);
   }
 }
 
@@ -319,7 +319,7 @@ TEST_P(EveryLight, RaysCarryWhatNextEventEstimationFinds) {
     const EmittedRay ray = emit(scene, random);
     const glm::dvec3 o = doubles(ray.origin), d = doubles(ray.direction);
     for (std::size_t k = 0; k < std::size(kReceivers); ++k) {
-      carried[k].add(ray.valid.v && kReceivers[k].is_hit(o, d) ? double{ray.weight.x.v} : 0);
+      carried[k].add(ray.valid.v && kReceivers[k].is_hit(o, d) ? double{ray.weight.r.v} : 0);
     }
   }
   int lit = 0;
@@ -332,7 +332,7 @@ TEST_P(EveryLight, RaysCarryWhatNextEventEstimationFinds) {
       const float u = random(), v = random();
       const LightSample s = scene.sample(p, double{u}, double{v});
       const double cosine = glm::dot(receiver.normal(), glm::normalize(doubles(s.point) - p));
-      found.add(s.valid.v && cosine > 0 ? double{s.radiance.x.v} / double{s.pdf_sa.v} * cosine * receiver.area() : 0);
+      found.add(s.valid.v && cosine > 0 ? double{s.radiance.r.v} / double{s.pdf_sa.v} * cosine * receiver.area() : 0);
     }
     const bool along_normals = found.estimate().mean == 0 && GetParam().kind_name.ends_with("_normals");
     if (along_normals) {

@@ -179,7 +179,7 @@ TEST_P(ManyLights, AreChosenWhereTheyMatter) {
       for (int n = 0; n < 8; ++n) {
         const Vec2f u{float(uniform(random)), float(uniform(random))};
         const LightChoice choice = sample_one_of_many_lights(one, lanes(p), {Float(0.0f), Float(0.0f)}, u, kOn);
-        if (choice.sample.valid.v) sent += double{choice.sample.radiance.y.v} / double{choice.sample.pdf_sa.v} / 8;
+        if (choice.sample.valid.v) sent += double{choice.sample.radiance.g.v} / double{choice.sample.pdf_sa.v} / 8;
       }
       by_place += sent * sent / prob(k, p);
       by_power += sent * sent / double{scene_.view.lights[k].prob};

@@ -16,6 +16,7 @@ inline const Mask kOn{true};
 
 inline Vec3f lanes(const glm::dvec3& v) { return {float(v.x), float(v.y), float(v.z)}; }
 inline glm::dvec3 doubles(const Vec3f& v) { return {v.x.v, v.y.v, v.z.v}; }
+inline glm::dvec3 doubles(const Color& c) { return {c.r.v, c.g.v, c.b.v}; }
 inline glm::dvec3 doubles(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 /// A scene and the part of its view that lights look at.
@@ -56,7 +57,7 @@ struct LitScene {
   double irradiance(const glm::dvec3& point, const glm::dvec3& normal) const {
     const LightSample s = sample(point, 0.5, 0.5);
     if (!s.valid.v) return 0;
-    return double{s.radiance.x.v} * std::max(0.0, glm::dot(normal, glm::normalize(doubles(s.point) - point)));
+    return double{s.radiance.r.v} * std::max(0.0, glm::dot(normal, glm::normalize(doubles(s.point) - point)));
   }
 };
 

@@ -12,13 +12,13 @@ namespace norrsken::NORRSKEN_ISA {
 struct PointLight {
   static NORRSKEN_INLINE LightSample sample(const SceneView&, const Light& light, const Vec3f& reference, Vec2f, Mask) {
     const Vec3f to_light = light.origin - reference;
-    const Float falloff = Float(1.0f) / dot(to_light, to_light);
-    return {light.origin, Float(1.0f), light.emission * falloff, falloff < Float(__builtin_inff())};
+    const Float falloff = 1.0f / dot(to_light, to_light);
+    return {light.origin, 1.0f, light.emission * falloff, falloff < Float(__builtin_inff())};
   }
 
   /// A direction found by other means never meets a point.
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light&, const Vec3f&, const Vec3f&, Float, Mask) {
-    return Float(0.0f);
+    return 0.0f;
   }
 
   static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f, Vec2f direction,

@@ -24,11 +24,11 @@ struct ProjectorLight {
     const Float z = dot(light.normal, from_light);
     const Float u = fnma(half, dot(light.edge1, from_light) / (z * parameter(0)), half);
     const Float v = fnma(half, dot(light.edge2, from_light) / (z * parameter(1)), half);
-    const Mask lit = (z > Float(0.0f)) & (u >= Float(0.0f)) & (u <= one) & (v >= Float(0.0f)) & (v <= one);
-    Vec3f irradiance = light.emission;
+    const Mask lit = (z > 0.0f) & (u >= 0.0f) & (u <= one) & (v >= 0.0f) & (v <= one);
+    Color irradiance = light.emission;
     if (scene.texture_kinds != 0) {
       const UInt texture = gather_uint(scene.parameters + 2, light.parameters, active);
-      const Mask textured = active & lit & (texture != UInt(0u));
+      const Mask textured = active & lit & (texture != 0u);
       if (any(textured)) {
         const TexturePoint point{{u, v}, {}, {}, {}};
         irradiance = select(textured, irradiance * evaluate_texture(scene, texture, point, textured), irradiance);
@@ -41,7 +41,7 @@ struct ProjectorLight {
 
   /// A direction found by other means never meets a point.
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light&, const Vec3f&, const Vec3f&, Float, Mask) {
-    return Float(0.0f);
+    return 0.0f;
   }
 
   /// Uniform over the picture.
@@ -50,11 +50,11 @@ struct ProjectorLight {
     const Float half_width = gather(scene.parameters, light.parameters, active);
     const Float half_height = gather(scene.parameters + 1, light.parameters, active);
     const Vec3f local{fms(direction.x, half_width + half_width, half_width),
-                      fms(direction.y, half_height + half_height, half_height), Float(1.0f)};
+                      fms(direction.y, half_height + half_height, half_height), 1.0f};
     const Float distance2 = dot(local, local), distance = sqrt(distance2);
-    const Float pdf_area = Float(0.25f) / (half_width * half_height);
+    const Float pdf_area = 0.25f / (half_width * half_height);
     return emit_from_axes<ProjectorLight>(scene, light, local,
-                                          pdf_sa_from_pdf_area(pdf_area, distance2, Float(1.0f) / distance), active);
+                                          pdf_sa_from_pdf_area(pdf_area, distance2, 1.0f / distance), active);
   }
 };
 

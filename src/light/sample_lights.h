@@ -19,7 +19,7 @@ NORRSKEN_INLINE LightSample select(Mask m, const LightSample& a, const LightSamp
 }
 
 NORRSKEN_INLINE UInt gather_light_kind(const SceneView& scene, UInt light, Mask active) {
-  return gather_uint(reinterpret_cast<const float*>(scene.lights) + kLightKind, light * UInt(kLightFloats), active);
+  return gather(scene.lights, &LightRecord::kind, light, active);
 }
 
 template <class Model>
@@ -35,7 +35,7 @@ NORRSKEN_INLINE void add_light_kind(LightKind kind, bool is_delta, const SceneVi
 /// Not inlined: every BSDF would repeat the code of every kind of light.
 __attribute__((noinline)) inline LightChoice sample_one_of_many_lights(const SceneView& scene, Vec3f reference,
                                                                        Vec2f pick, Vec2f u, Mask active) {
-  const Mask never = Float(1.0f) < Float(0.0f);
+  const Mask never = Mask::none();
   PickedLight picked;
   if (scene.light_nodes != nullptr) {
     picked = pick_light_by_place(scene, reference, pick, active);
@@ -45,7 +45,7 @@ __attribute__((noinline)) inline LightChoice sample_one_of_many_lights(const Sce
   }
   const UInt light = picked.light;
   const UInt kinds = gather_light_kind(scene, light, active);
-  LightChoice choice{{reference, Float(1.0f), {Float(0.0f), Float(0.0f), Float(0.0f)}, never}, picked.prob, never};
+  LightChoice choice{{reference, 1.0f, {0.0f, 0.0f, 0.0f}, never}, picked.prob, never};
 #define NORRSKEN_LIGHT(kind, Model, is_delta)                                  \
   if (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind))) \
     add_light_kind<Model>(LightKind::kind, is_delta, scene, light, kinds, reference, u, active, choice);
@@ -59,13 +59,13 @@ template <class Scene>
 NORRSKEN_INLINE LightChoice sample_one_light(const Scene& scene, const Vec3f& reference, Vec2f pick, Vec2f u,
                                              Mask active) {
   if (scene.light_count == 1) {
-    const Mask never = Float(1.0f) < Float(0.0f);
+    const Mask never = Mask::none();
     const LightRecord& record = scene.lights[0];
     if (record.kind == LightKind::parallelogram) {
-      return {FlatAreaLight<false>::sample(scene, broadcast_light(record), reference, u, active), Float(1.0f), never};
+      return {FlatAreaLight<false>::sample(scene, broadcast_light(record), reference, u, active), 1.0f, never};
     }
     if (record.kind == LightKind::point) {
-      return {PointLight::sample(scene, broadcast_light(record), reference, u, active), Float(1.0f), !never};
+      return {PointLight::sample(scene, broadcast_light(record), reference, u, active), 1.0f, !never};
     }
   }
   return sample_one_of_many_lights(scene, copied(reference), pick, u, active);
@@ -90,7 +90,7 @@ inline Float light_pdf_sa(const SceneView& scene, UInt light, Vec3f reference, V
 }
 
 /// What a ray to nowhere sees: the scene's environment.
-inline Vec3f environment_radiance(const SceneView& scene, Vec3f direction, Mask active) {
+inline Color environment_radiance(const SceneView& scene, Vec3f direction, Mask active) {
   const LightRecord& record = scene.lights[scene.environment];
   const Light light = broadcast_light(record);
   switch (record.kind) {
@@ -100,7 +100,7 @@ inline Vec3f environment_radiance(const SceneView& scene, Vec3f direction, Mask 
 #include "lists/environment.def"
 #undef NORRSKEN_ENVIRONMENT
     default:
-      return {Float(0.0f), Float(0.0f), Float(0.0f)};
+      return {0.0f, 0.0f, 0.0f};
   }
 }
 

@@ -23,31 +23,31 @@ struct SpotLight {
     const Vec3f local{dot(light.edge1, from_light), dot(light.edge2, from_light), dot(light.normal, from_light)};
     const Float cos_theta = local.z / sqrt(dot(local, local));
     const Float slope = (parameter(0) - acos(cos_theta)) * parameter(3);
-    const Float falloff = select(cos_theta >= parameter(2), Float(1.0f), slope);
-    const Float inverse_square = Float(1.0f) / dot(from_light, from_light);
-    const Mask lit = (cos_theta > parameter(1)) & (falloff > Float(0.0f)) & (inverse_square < Float(kInf));
-    Vec3f intensity = light.emission * falloff;
+    const Float falloff = select(cos_theta >= parameter(2), 1.0f, slope);
+    const Float inverse_square = 1.0f / dot(from_light, from_light);
+    const Mask lit = (cos_theta > parameter(1)) & (falloff > 0.0f) & (inverse_square < Float(kInf));
+    Color intensity = light.emission * falloff;
     if (scene.texture_kinds != 0) {
       const UInt texture = gather_uint(scene.parameters + 5, light.parameters, active);
-      const Mask textured = active & lit & (texture != UInt(0u));
+      const Mask textured = active & lit & (texture != 0u);
       if (any(textured)) {
-        const Float half = Float(0.5f) * parameter(4) / local.z;
-        const TexturePoint point{{fma(local.x, half, Float(0.5f)), fma(local.y, half, Float(0.5f))}, {}, {}, {}};
+        const Float half = 0.5f * parameter(4) / local.z;
+        const TexturePoint point{{fma(local.x, half, 0.5f), fma(local.y, half, 0.5f)}, {}, {}, {}};
         intensity = select(textured, intensity * evaluate_texture(scene, texture, point, textured), intensity);
       }
     }
-    return {light.origin, Float(1.0f), intensity * inverse_square, lit};
+    return {light.origin, 1.0f, intensity * inverse_square, lit};
   }
 
   /// A direction found by other means never meets a point.
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light&, const Vec3f&, const Vec3f&, Float, Mask) {
-    return Float(0.0f);
+    return 0.0f;
   }
 
   /// Uniform over the cone.
   static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f, Vec2f direction,
                                          Mask active) {
-    const Float one_minus_cos = Float(1.0f) - gather(scene.parameters + 1, light.parameters, active);
+    const Float one_minus_cos = 1.0f - gather(scene.parameters + 1, light.parameters, active);
     return emit_from_axes<SpotLight>(scene, light, warp_to_cone(direction, one_minus_cos), cone_pdf_sa(one_minus_cos),
                                      active);
   }

@@ -8,7 +8,7 @@
 
 #include "base/aligned.h"
 #include "isa/entry.h"
-#include "math/special_check.h"
+#include "math/special_testing.h"
 
 namespace norrsken {
 

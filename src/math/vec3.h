@@ -1,6 +1,8 @@
 // Three components of any number type: of `float` on the host, of lanes in kernels.
 #pragma once
 
+#include <type_traits>
+
 #include "simd/lanes.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -24,13 +26,8 @@ template <class F>
 NORRSKEN_INLINE Vec3<F> operator-(const Vec3<F>& a) {
   return {-a.x, -a.y, -a.z};
 }
-/// Component by component, as for colours.
 template <class F>
-NORRSKEN_INLINE Vec3<F> operator*(const Vec3<F>& a, const Vec3<F>& b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
-template <class F>
-NORRSKEN_INLINE Vec3<F> operator*(const Vec3<F>& a, F s) {
+NORRSKEN_INLINE Vec3<F> operator*(const Vec3<F>& a, std::type_identity_t<F> s) {
   return {a.x * s, a.y * s, a.z * s};
 }
 template <class F>
@@ -49,10 +46,6 @@ NORRSKEN_INLINE Vec3<F> fma(const Vec3<F>& a, F s, const Vec3<F>& b) {
 template <class F>
 NORRSKEN_INLINE Vec3<F> normalize(const Vec3<F>& a) {
   return a * (F(1.0f) / sqrt(dot(a, a)));
-}
-template <class F>
-NORRSKEN_INLINE F max_component(const Vec3<F>& a) {
-  return max(a.x, max(a.y, a.z));
 }
 
 /// What to hand to a function that is not inlined: made component by component, so that GCC keeps the original in

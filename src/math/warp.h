@@ -19,11 +19,11 @@ NORRSKEN_INLINE Vec2f select(Mask m, const Vec2f& a, const Vec2f& b) {
 /// Area-preserving and continuous map of the unit square to the unit disk.
 /// Source: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", 1997.
 NORRSKEN_INLINE Vec2f warp_to_disk(Vec2f u) {
-  const Float a = fma(u.x, Float(2.0f), Float(-1.0f)), b = fma(u.y, Float(2.0f), Float(-1.0f));
+  const Float a = fma(u.x, 2.0f, -1.0f), b = fma(u.y, 2.0f, -1.0f);
   const Mask x_major = abs(a) > abs(b);
   const Float radius = select(x_major, a, b), minor = select(x_major, b, a);
   // At the centre both are zero: 0/0 is replaced by an angle of zero.
-  const Float ratio = minor / select(radius == Float(0.0f), Float(1.0f), radius);
+  const Float ratio = minor / select(radius == 0.0f, 1.0f, radius);
   const SinCos q = sin_cos_quarter(ratio * Float(kPi / 4));
   return {radius * select(x_major, q.cos, q.sin), radius * select(x_major, q.sin, q.cos)};
 }
@@ -31,15 +31,15 @@ NORRSKEN_INLINE Vec2f warp_to_disk(Vec2f u) {
 /// Directions with density cos(theta) / pi over solid angle: a point of the disk, projected up (Malley).
 NORRSKEN_INLINE Vec3f warp_to_cosine_hemisphere(Vec2f u) {
   const Vec2f d = warp_to_disk(u);
-  const Float z2 = fnma(d.x, d.x, fnma(d.y, d.y, Float(1.0f)));
-  return {d.x, d.y, sqrt(max(z2, Float(0.0f)))};
+  const Float z2 = fnma(d.x, d.x, fnma(d.y, d.y, 1.0f));
+  return {d.x, d.y, sqrt(max(z2, 0.0f))};
 }
-NORRSKEN_INLINE Float cosine_hemisphere_pdf_sa(Float cos_theta) { return max(cos_theta, Float(0.0f)) * Float(kInvPi); }
+NORRSKEN_INLINE Float cosine_hemisphere_pdf_sa(Float cos_theta) { return max(cos_theta, 0.0f) * kInvPi; }
 
 /// A point of the unit sphere, uniformly.
 NORRSKEN_INLINE Vec3f warp_to_sphere(Vec2f u) {
-  const Float z = fnma(Float(2.0f), u.x, Float(1.0f));
-  const Float r = sqrt(max(fnma(z, z, Float(1.0f)), Float(0.0f)));
+  const Float z = fnma(2.0f, u.x, 1.0f);
+  const Float r = sqrt(max(fnma(z, z, 1.0f), 0.0f));
   const SinCos phi = sin_cos_turns(u.y);
   return {r * phi.cos, r * phi.sin, z};
 }
@@ -48,7 +48,7 @@ NORRSKEN_INLINE Vec3f warp_to_sphere(Vec2f u) {
 /// diagonals. Source: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
 NORRSKEN_INLINE Vec2f warp_to_triangle(Vec2f u) {
   const Mask upper = u.y > u.x;
-  const Float half_min = select(upper, u.x, u.y) * Float(0.5f);
+  const Float half_min = select(upper, u.x, u.y) * 0.5f;
   const Float rest = select(upper, u.y, u.x) - half_min;
   return {select(upper, half_min, rest), select(upper, rest, half_min)};
 }
@@ -56,9 +56,9 @@ NORRSKEN_INLINE Vec2f warp_to_triangle(Vec2f u) {
 /// Directions within the cone cos(theta) >= 1 - one_minus_cos around z, uniform over its solid angle.
 NORRSKEN_INLINE Vec3f warp_to_cone(Vec2f u, Float one_minus_cos) {
   const Float h = u.x * one_minus_cos;  // 1 - cos(theta), kept small to stay precise for narrow cones
-  const Float sin_theta = sqrt(max(h * (Float(2.0f) - h), Float(0.0f)));
+  const Float sin_theta = sqrt(max(h * (2.0f - h), 0.0f));
   const SinCos phi = sin_cos_turns(u.y);
-  return {sin_theta * phi.cos, sin_theta * phi.sin, Float(1.0f) - h};
+  return {sin_theta * phi.cos, sin_theta * phi.sin, 1.0f - h};
 }
 NORRSKEN_INLINE Float cone_pdf_sa(Float one_minus_cos) { return Float(1.0f / (2.0f * kPi)) / one_minus_cos; }
 

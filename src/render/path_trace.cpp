@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "compile/compile.h"
@@ -26,13 +25,6 @@ constexpr const char* kBsdfNames[] = {
 #undef NORRSKEN_BSDF_RESOLVED
 };
 
-Triple triple(const Queue& queue, std::uint32_t first_field, std::uint32_t i = 0) {
-  return {queue.field(first_field)[i], queue.field(first_field + 1)[i], queue.field(first_field + 2)[i]};
-}
-std::uint32_t word(const Queue& queue, std::uint32_t field) {
-  return std::bit_cast<std::uint32_t>(*queue.field(field));
-}
-
 /// Follows a wave of one slot.
 class PathObserver {
  public:
@@ -45,7 +37,7 @@ class PathObserver {
             this};
   }
   PathTrace take(const WaveMemory& memory) {
-    trace_.radiance = triple(memory.slots, kSlotRed);
+    trace_.radiance = memory.slots[0].radiance;
     return std::move(trace_);
   }
 
@@ -60,7 +52,7 @@ class PathObserver {
         add_hit(memory);
         break;
       case WaveEvent::resolved:
-        for (const Queue& hits : memory.hits) {
+        for (const auto& hits : memory.found.hits) {
           if (hits.count > 0) vertex().bsdf += " > " + bsdf_of(hits);
         }
         break;
@@ -75,62 +67,59 @@ class PathObserver {
 
   PathVertex& vertex() { return trace_.vertices.back(); }
 
-  static std::string bsdf_of(const Queue& hits) {
-    return kBsdfNames[static_cast<std::size_t>(material_kind(word(hits, kHitMaterial)))];
+  static std::string bsdf_of(const Queue<stored::Hit>& hits) {
+    return kBsdfNames[static_cast<std::size_t>(material_kind(hits[0].material))];
   }
 
-  void add_ray(const Queue& rays) {
+  void add_ray(const Queue<stored::Ray>& rays) {
     if (rays.count == 0) return;
+    const stored::Ray ray = rays[0];
     PathVertex v;
-    v.origin = triple(rays, kRayOriginX);
-    v.direction = triple(rays, kRayDirectionX);
-    v.throughput = triple(rays, kRayThroughputRed);
-    v.pdf_sa = *rays.field(kRayPdf);
+    v.origin = ray.origin;
+    v.direction = ray.direction;
+    v.throughput = ray.throughput;
+    v.pdf_sa = ray.pdf_sa;
     trace_.vertices.push_back(std::move(v));
   }
 
   void add_hit(const WaveMemory& memory) {
-    const auto look = [&](const Queue& hits) {
+    const auto look = [&](const Queue<stored::Hit>& hits) {
       if (hits.count == 0) return;
       PathVertex& v = vertex();
       v.hit = true;
-      v.distance = *hits.field(kHitDistance);
+      v.distance = hits[0].t;
       for (std::size_t k = 0; k < 3; ++k) v.position[k] = std::fma(v.direction[k], v.distance, v.origin[k]);
-      const std::uint32_t primitive = word(hits, kHitPrimitive);
+      const std::uint32_t primitive = hits[0].primitive;
       v.shape = scene_.surfaces[primitive].shape;
       v.primitive = primitive - scene_.shapes[v.shape].first_primitive;
       v.bsdf = bsdf_of(hits);
     };
-    look(memory.light_hits);
-    for (const Queue& hits : memory.hits) look(hits);
-    look(memory.unresolved_hits);
+    look(memory.found.light_hits);
+    for (const auto& hits : memory.found.hits) look(hits);
+    look(memory.found.unresolved_hits);
   }
 
-  void add_emission(const Queue& slots) {
-    const Triple radiance = triple(slots, kSlotRed);
+  void add_emission(const Queue<stored::Slot>& slots) {
+    const Triple radiance = slots[0].radiance;
     for (std::size_t k = 0; k < 3; ++k) vertex().emission[k] += radiance[k] - before_[k];
     before_ = radiance;
   }
 
   void add_light_samples(const WaveMemory& memory) {
-    const Queue& rays = memory.shadow_rays;
+    const Queue<stored::ShadowRay>& rays = memory.shadow_rays;
     std::string bsdf;
-    for (const Queue& hits : memory.hits) {
+    for (const auto& hits : memory.found.hits) {
       if (hits.count > 0) bsdf = bsdf_of(hits);
     }
-    std::vector<std::uint8_t> occluded(rays.capacity);
-    kernels_.occluded_rays(
-        scene_,
-        {rays.field(kShadowOriginX), rays.field(kShadowOriginY), rays.field(kShadowOriginZ),
-         rays.field(kShadowDirectionX), rays.field(kShadowDirectionY), rays.field(kShadowDirectionZ), rays.count},
-        rays.field(kShadowDistance), occluded.data());
+    std::vector<std::uint8_t> occluded(rays.capacity());
+    const auto origin = [&](std::uint32_t k) { return rays.field(&stored::ShadowRay::origin, k); };
+    const auto direction = [&](std::uint32_t k) { return rays.field(&stored::ShadowRay::direction, k); };
+    kernels_.occluded_rays(scene_,
+                           {origin(0), origin(1), origin(2), direction(0), direction(1), direction(2), rays.count},
+                           rays.field(&stored::ShadowRay::t_max), occluded.data());
     for (std::uint32_t i = 0; i < rays.count; ++i) {
-      PathVertex::LightSample s{bsdf,
-                                triple(rays, kShadowOriginX, i),
-                                triple(rays, kShadowDirectionX, i),
-                                rays.field(kShadowDistance)[i],
-                                triple(rays, kShadowRed, i),
-                                occluded[i] == 0};
+      const stored::ShadowRay ray = rays[i];
+      PathVertex::LightSample s{bsdf, ray.origin, ray.direction, ray.t_max, ray.contribution, occluded[i] == 0};
       if (s.reached) {
         for (std::size_t k = 0; k < 3; ++k) before_[k] += s.contribution[k];
       }

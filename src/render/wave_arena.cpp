@@ -3,27 +3,25 @@
 namespace norrsken {
 namespace {
 
-/// Calls visit(queue, fields, stride, capacity) for the queues in memory.
+/// Calls visit(queue, stride, capacity) for the queues in memory.
 template <class Visit>
 void for_each_queue(WaveMemory& memory, std::uint32_t slots, bool from_lights, const Visit& visit_queue) {
   const std::uint32_t capacity = (slots + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
   // Compressed stores may write a full register past the end. One more cache line keeps fields from falling into the
   // same cache sets.
   constexpr std::uint32_t kPadding = 2 * kMaxLanes;
-  const auto visit = [&](Queue& queue, std::uint32_t fields, std::uint32_t records) {
-    visit_queue(queue, fields, records + kPadding, records);
-  };
-  visit(memory.slots, kSlotFieldCount, capacity);
-  visit(memory.rays, kRayFieldCount, capacity);
-  visit(memory.next_rays, kRayFieldCount, capacity);
-  for (Queue& q : memory.hits) visit(q, kHitFieldCount, capacity);
-  visit(memory.unresolved_hits, kHitFieldCount, capacity);
-  visit(memory.light_hits, kHitFieldCount, capacity);
-  visit(memory.misses, kRayFieldCount, capacity);
-  visit(memory.shadow_rays, kShadowFieldCount, capacity);
+  const auto visit = [&](auto& queue, std::uint32_t records) { visit_queue(queue, records + kPadding, records); };
+  visit(memory.slots, capacity);
+  visit(memory.rays, capacity);
+  visit(memory.next_rays, capacity);
+  for (auto& hits : memory.found.hits) visit(hits, capacity);
+  visit(memory.found.unresolved_hits, capacity);
+  visit(memory.found.light_hits, capacity);
+  visit(memory.found.misses, capacity);
+  visit(memory.shadow_rays, capacity);
   if (!from_lights) return;
-  visit(memory.connections, kConnectionFieldCount, capacity);
-  visit(memory.splats, kSplatFieldCount, kSplatsPerSlot * capacity);
+  visit(memory.connections, capacity);
+  visit(memory.splats, kSplatsPerSlot * capacity);
 }
 
 }  // namespace
@@ -31,8 +29,8 @@ void for_each_queue(WaveMemory& memory, std::uint32_t slots, bool from_lights, c
 std::uint64_t WaveArena::bytes(std::uint32_t slots, bool from_lights) {
   WaveMemory unused;
   std::uint64_t values = 0;
-  for_each_queue(unused, slots, from_lights, [&](Queue&, std::uint32_t fields, std::uint32_t stride, std::uint32_t) {
-    values += std::uint64_t{fields} * stride;
+  for_each_queue(unused, slots, from_lights, [&](const auto& queue, std::uint32_t stride, std::uint32_t) {
+    values += std::uint64_t{queue.kFields} * stride;
   });
   return values * sizeof(float);
 }
@@ -40,11 +38,10 @@ std::uint64_t WaveArena::bytes(std::uint32_t slots, bool from_lights) {
 WaveArena::WaveArena(std::uint32_t slots, bool from_lights) {
   block_.resize(bytes(slots, from_lights) / sizeof(float));  // zeros, for lanes beyond a queue's end are read, masked
   float* at = block_.data();
-  for_each_queue(memory_, slots, from_lights,
-                 [&](Queue& q, std::uint32_t fields, std::uint32_t stride, std::uint32_t records) {
-                   q = {at, stride, 0, records};
-                   at += std::size_t{fields} * stride;
-                 });
+  for_each_queue(memory_, slots, from_lights, [&](auto& queue, std::uint32_t stride, std::uint32_t capacity) {
+    queue = {at, stride, capacity};
+    at += std::size_t{queue.kFields} * stride;
+  });
 }
 
 }  // namespace norrsken

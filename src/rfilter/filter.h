@@ -26,7 +26,7 @@ struct FilterSample {
 struct BoxFilter {
   static constexpr bool kWeighted = false;
 
-  NORRSKEN_INLINE FilterSample sample(UInt, UInt, Vec2f u, Mask) const { return {u.x, u.y, Float(1.0f)}; }
+  NORRSKEN_INLINE FilterSample sample(UInt, UInt, Vec2f u, Mask) const { return {u.x, u.y, 1.0f}; }
 };
 
 class TabulatedFilter {
@@ -66,16 +66,16 @@ class TabulatedFilter {
     const Float absolute = absolute_before + absolute_after;
     const Float scale = absolute / (gather(signed_, before, active) + gather(signed_, after, active));
     const Float t = fma(u, absolute, -absolute_before);
-    const AxisSample half = invert(min(abs(t), Float(1.0f)), active);
-    return {Float(0.5f) + copysign(half.offset, t), copysign(scale, half.weight)};
+    const AxisSample half = invert(min(abs(t), 1.0f), active);
+    return {0.5f + copysign(half.offset, t), copysign(scale, half.weight)};
   }
 
   /// The distance from the centre where the cumulative distribution is t, in [0, 1]; the weight has the filter's sign.
   NORRSKEN_INLINE AxisSample invert(Float t, Mask active) const {
     const UInt cell = to_uint(t * Float(static_cast<float>(film_.filter.cells)));
     UInt low = gather_uint(guide_, smaller(cell, UInt(film_.filter.cells - 1)), active);
-    UInt high = gather_uint(guide_ + 1, smaller(cell, UInt(film_.filter.cells - 1)), active) + UInt(1u);
-    while (any(active & (low + UInt(1u) != high))) {
+    UInt high = gather_uint(guide_ + 1, smaller(cell, UInt(film_.filter.cells - 1)), active) + 1u;
+    while (any(active & (low + 1u != high))) {
       const UInt middle = shift_right<1>(low + high);
       const Mask below = gather(cdf_, middle, active) <= t;
       low = select(below, middle, low);
@@ -86,9 +86,9 @@ class TabulatedFilter {
     // From an interval of width w whose density goes from a to b: s w with a s + (b - a) s^2 / 2 = q, where q w is the
     // probability that is left.
     const Float a = abs(f0), b = abs(f1), w = x1 - x0;
-    const Float q = max((t - gather(cdf_, low, active)) / w, Float(0.0f));
-    const Float root = sqrt(max(fma(a, a, Float(2.0f) * (b - a) * q), Float(0.0f)));
-    const Float s = min((q + q) / max(a + root, Float(1e-30f)), Float(1.0f));
+    const Float q = max((t - gather(cdf_, low, active)) / w, 0.0f);
+    const Float root = sqrt(max(fma(a, a, 2.0f * (b - a) * q), 0.0f));
+    const Float s = min((q + q) / max(a + root, 1e-30f), 1.0f);
     return {fma(s, w, x0), f0 + f1};
   }
 

@@ -9,7 +9,6 @@ namespace norrsken {
 namespace camera_dimension {
 inline constexpr std::uint32_t kFilm = 0;  // 2: where in the pixel
 inline constexpr std::uint32_t kLens = 2;  // 2: where on the lens
-inline constexpr std::uint32_t kTime = 4;  // 1
 }  // namespace camera_dimension
 
 /// In place of the camera's, for paths that start at a light.

@@ -20,6 +20,6 @@ NORRSKEN_INLINE UInt hash(UInt x) {
 NORRSKEN_INLINE UInt hash(UInt a, UInt b) { return hash(hash(a) + b * UInt(0x9e3779b9u)); }
 
 /// The top 24 bits as a number in [0, 1).
-NORRSKEN_INLINE Float to_unit(UInt x) { return to_float(shift_right<8>(x)) * Float(0x1p-24f); }
+NORRSKEN_INLINE Float to_unit(UInt x) { return to_float(shift_right<8>(x)) * 0x1p-24f; }
 
 }  // namespace norrsken::NORRSKEN_ISA

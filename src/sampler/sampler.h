@@ -22,7 +22,7 @@ NORRSKEN_INLINE SampleKey make_sample_key(SamplerKind kind, std::uint64_t seed, 
   const UInt low(static_cast<std::uint32_t>(seed)), high(static_cast<std::uint32_t>(seed >> 32));
   const UInt pixel_key = hash(hash(pixel, low), high);
   if (kind == SamplerKind::independent) {
-    return {hash(pixel_key ^ UInt(sample)), hash(pixel_key + UInt(sample), high + UInt(1u)) | UInt(1u)};
+    return {hash(pixel_key ^ UInt(sample)), hash(pixel_key + UInt(sample), high + 1u) | 1u};
   }
   return {hash(pixel_key, UInt(sample % kReplicates)), UInt(sample / kReplicates)};
 }

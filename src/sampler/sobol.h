@@ -27,7 +27,7 @@ struct SobolSampler {
   static NORRSKEN_INLINE UInt scramble_reversed(UInt x, UInt seed) {
     x ^= x * UInt(0x3d20adeau);
     x += seed;
-    x *= shift_right<16>(seed) | UInt(1u);
+    x *= shift_right<16>(seed) | 1u;
     x ^= x * UInt(0x05526c56u);
     x ^= x * UInt(0x53a22864u);
     return x;
@@ -48,14 +48,14 @@ struct SobolSampler {
   static NORRSKEN_INLINE Vec2f sample_2d(UInt key, UInt index, std::uint32_t dimension) {
     const UInt seed = hash(key + UInt(dimension * 0x9e3779b9u));
     const UInt shuffled = reverse_bits(scramble_reversed(reverse_bits(index), seed));
-    const UInt x = scramble_reversed(shuffled, hash(seed + UInt(1u)));
-    const UInt y = scramble_reversed(second_dimension_reversed(shuffled), hash(seed + UInt(2u)));
+    const UInt x = scramble_reversed(shuffled, hash(seed + 1u));
+    const UInt y = scramble_reversed(second_dimension_reversed(shuffled), hash(seed + 2u));
     return {to_unit(reverse_bits(x)), to_unit(reverse_bits(y))};
   }
   static NORRSKEN_INLINE Float sample_1d(UInt key, UInt index, std::uint32_t dimension) {
     const UInt seed = hash(key + UInt(dimension * 0x9e3779b9u));
     const UInt shuffled = reverse_bits(scramble_reversed(reverse_bits(index), seed));
-    return to_unit(reverse_bits(scramble_reversed(shuffled, hash(seed + UInt(1u)))));
+    return to_unit(reverse_bits(scramble_reversed(shuffled, hash(seed + 1u))));
   }
 };
 

@@ -30,7 +30,7 @@ struct BsplineCurveShape {
     const Float inv_speed = one / sqrt(select(speed2 > zero, speed2, dot(chord, chord)));
     const CurveFrame frame(select(speed2 > zero, along, chord) * inv_speed);
     const Float off2 = dot(center, center);
-    const Vec3f e = select(off2 > zero, center * (Float(-1.0f) / sqrt(off2)), frame.start);
+    const Vec3f e = select(off2 > zero, center * (-1.0f / sqrt(off2)), frame.start);
 
     const Float curvature = radius * dot(e, bend);
     const Vec3f gradient = fma(e, speed2 - curvature, along * -swell);
@@ -46,7 +46,7 @@ struct BsplineCurveShape {
     surface.dp_dv = (fma(e, swell, along) + turned * radius) * s.segments;
     // Embree's search is content with about 16 times the rounding of what it searches in, and rays that go on inwards from
     // closer than that would be stopped where they begin.
-    surface.scale = s.size() * Float(16.0f);
+    surface.scale = s.size() * 16.0f;
     return surface;
   }
 
@@ -69,13 +69,13 @@ struct BsplineCurveShape {
     }
 
     NORRSKEN_INLINE Vec3f center(Float t) const { return fma(fma(fma(c[3], t, c[2]), t, c[1]), t, c[0]); }
-    NORRSKEN_INLINE Vec3f along(Float t) const { return fma(fma(c[3], Float(3.0f) * t, c[2] * Float(2.0f)), t, c[1]); }
-    NORRSKEN_INLINE Vec3f bend(Float t) const { return fma(c[3], Float(6.0f) * t, c[2] * Float(2.0f)); }
+    NORRSKEN_INLINE Vec3f along(Float t) const { return fma(fma(c[3], 3.0f * t, c[2] * 2.0f), t, c[1]); }
+    NORRSKEN_INLINE Vec3f bend(Float t) const { return fma(c[3], 6.0f * t, c[2] * 2.0f); }
     NORRSKEN_INLINE Float radius(Float t) const {
       // Where the radius runs out, rounding could make it negative.
-      return max(fma(fma(fma(r[3], t, r[2]), t, r[1]), t, r[0]), Float(0.0f));
+      return max(fma(fma(fma(r[3], t, r[2]), t, r[1]), t, r[0]), 0.0f);
     }
-    NORRSKEN_INLINE Float swell(Float t) const { return fma(fma(r[3], Float(3.0f) * t, r[2] * Float(2.0f)), t, r[1]); }
+    NORRSKEN_INLINE Float swell(Float t) const { return fma(fma(r[3], 3.0f * t, r[2] * 2.0f), t, r[1]); }
     /// Half the derivative of the squared distance from p: 0 where p is across the curve.
     NORRSKEN_INLINE Float ahead(Float t) const { return dot(center(t), along(t)); }
     /// How far p is off the circle around c(t), if it is across the curve there.
@@ -123,7 +123,7 @@ struct BsplineCurveShape {
       const Mask root_above = (ahead < zero) ^ falling;
       lower = select(root_above, t, lower), upper = select(root_above, upper, t);
       const Float newton = t - ahead / (dot(along, along) + dot(q, curve.bend(t)));
-      t = select((newton >= lower) & (newton <= upper), newton, (lower + upper) * Float(0.5f));
+      t = select((newton >= lower) & (newton <= upper), newton, (lower + upper) * 0.5f);
     }
     return t;
   }

@@ -19,12 +19,12 @@ struct CurveSegment {
   Float segments;  ///< of the whole shape
 
   NORRSKEN_INLINE CurveSegment(const ElementReader& table, const Vec3f& p) {
-    const UInt count = table.word(UInt(0u));
-    const UInt first = count + UInt(1u) + table.word(table.element + UInt(1u)) * UInt(4u);
+    const UInt count = table.word(0u);
+    const UInt first = count + 1u + table.word(table.element + 1u) * 4u;
     for (std::uint32_t k = 0; k < N; ++k) {
       const UInt at = first + UInt(4 * k);
-      point[k] = Vec3f{table.number(at), table.number(at + UInt(1u)), table.number(at + UInt(2u))} - p;
-      radius[k] = table.number(at + UInt(3u));
+      point[k] = Vec3f{table.number(at), table.number(at + 1u), table.number(at + 2u)} - p;
+      radius[k] = table.number(at + 3u);
     }
     first_v = to_float(table.element);
     segments = to_float(count);
@@ -50,7 +50,7 @@ struct CurveFrame {
     const Vec3f& t = tangent;
     const Float across2 = fma(t.x, t.x, t.y * t.y);
     // Where the tangent's z rounds to 1.
-    const Mask upright = across2 < Float(0x1p-24f);
+    const Mask upright = across2 < 0x1p-24f;
     inv_across = select(upright, zero, one / sqrt(across2));
     quarter = select(upright, Vec3f{zero, one, zero},
                      Vec3f{-t.x * t.z * inv_across, -t.y * t.z * inv_across, across2 * inv_across});
@@ -60,7 +60,7 @@ struct CurveFrame {
   /// The angle of a direction in turns, 0 to 1.
   NORRSKEN_INLINE Float turn(const Vec3f& direction) const {
     const Float turn = atan2(dot(quarter, direction), dot(start, direction)) * Float(0.5f * kInvPi);
-    return select(turn < Float(0.0f), turn + Float(1.0f), turn);
+    return select(turn < 0.0f, turn + 1.0f, turn);
   }
 };
 

@@ -48,7 +48,7 @@ struct CylinderShape {
 
   static NORRSKEN_INLINE LocalPoint sample(Vec2f u) {
     const SinCos phi = sin_cos_turns(u.y);
-    const Vec3f n{phi.cos, phi.sin, Float(0.0f)};
+    const Vec3f n{phi.cos, phi.sin, 0.0f};
     return {{n.x, n.y, u.x}, n};
   }
 };

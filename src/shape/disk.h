@@ -16,7 +16,7 @@ struct DiskShape {
     // A ray in the disk's plane gives an infinity or no number, which no comparison below accepts.
     const Float t = -o.z / d.z;
     const Float x = fma(d.x, t, o.x), y = fma(d.y, t, o.y);
-    return {t, (t > Float(0.0f)) & (t < t_max) & (fma(x, x, y * y) <= Float(1.0f))};
+    return {t, (t > 0.0f) & (t < t_max) & (fma(x, x, y * y) <= 1.0f)};
   }
 
   static NORRSKEN_INLINE LocalSurface surface_at(const Vec3f& p) {
@@ -36,7 +36,7 @@ struct DiskShape {
   static NORRSKEN_INLINE LocalPoint sample(Vec2f u) {
     const Vec2f p = warp_to_disk(u);
     const Float zero(0.0f);
-    return {{p.x, p.y, zero}, {zero, zero, Float(1.0f)}};
+    return {{p.x, p.y, zero}, {zero, zero, 1.0f}};
   }
 };
 

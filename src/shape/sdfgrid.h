@@ -31,7 +31,7 @@ struct SdfGridShape {
   static NORRSKEN_INLINE LocalSurface surface_at(const ElementReader& table, const Vec3f& p) {
     const UInt size[3] = {table.word(UInt(SdfGridTable::kSize)), table.word(UInt(SdfGridTable::kSize + 1)),
                           table.word(UInt(SdfGridTable::kSize + 2))};
-    const Axis axes[3] = {make_axis(size[0], UInt(1u), p.x), make_axis(size[1], size[0], p.y),
+    const Axis axes[3] = {make_axis(size[0], 1u, p.x), make_axis(size[1], size[0], p.y),
                           make_axis(size[2], size[0] * size[1], p.z)};
     const UInt first = UInt(SdfGridTable::kValues) + axes[0].offset() + axes[1].offset() + axes[2].offset();
     Float corners[8];
@@ -49,17 +49,17 @@ struct SdfGridShape {
       gradient[a] = (high[a] - low[a]) * axes[a].voxels;
     }
     const Scaled own = unit_vector({gradient[0], gradient[1], gradient[2]});
-    const Vec3f z{Float(0.0f), Float(0.0f), Float(1.0f)};
+    const Vec3f z{0.0f, 0.0f, 1.0f};
     const Vec3f normal = select(own.found, own.unit, z);
 
     // One step of Newton's method, of at most half a voxel: where the gradient all but vanishes it says little.
     const Float value = lerp(low[2], high[2], axes[2].within);
-    const Float limit = Float(0.5f) / max(axes[0].voxels, max(axes[1].voxels, axes[2].voxels));
-    const Float step = select(own.found, min(max(value / own.length, -limit), limit), Float(0.0f));
+    const Float limit = 0.5f / max(axes[0].voxels, max(axes[1].voxels, axes[2].voxels));
+    const Float step = select(own.found, min(max(value / own.length, -limit), limit), 0.0f);
 
-    const Vec3f zero{Float(0.0f), Float(0.0f), Float(0.0f)};
-    LocalSurface s{fma(normal, -step, p), normal, {Float(0.0f), Float(0.0f)}, zero, zero};
-    const Mask smooth = table.active & (table.word(UInt(SdfGridTable::kSmooth)) != UInt(0u));
+    const Vec3f zero{0.0f, 0.0f, 0.0f};
+    LocalSurface s{fma(normal, -step, p), normal, {0.0f, 0.0f}, zero, zero};
+    const Mask smooth = table.active & (table.word(UInt(SdfGridTable::kSmooth)) != 0u);
     if (any(smooth)) {
       const Scaled blended = unit_vector(blend(table, first, axes, low, high, gradient, smooth));
       s.shading = select(smooth & blended.found, blended.unit, normal);
@@ -79,7 +79,7 @@ struct SdfGridShape {
   };
   static NORRSKEN_INLINE Axis make_axis(UInt size, UInt stride, Float x) {
     const Float zero(0.0f), one(1.0f);
-    const Float voxels = to_float(size - UInt(1u));
+    const Float voxels = to_float(size - 1u);
     const Float at = x * voxels;
     const Float voxel = max(min(floor(at), voxels - one), zero);
     return {stride, voxels, voxel, max(min(at - voxel, one), zero)};
@@ -105,9 +105,9 @@ struct SdfGridShape {
     constexpr float kLeast = 0x1p-120f;
     const Float size = largest(v);
     const Mask found = size > Float(kLeast);
-    const Vec3f scaled = v * (Float(1.0f) / select(found, size, Float(1.0f)));
-    const Float length = select(found, sqrt(dot(scaled, scaled)), Float(1.0f));
-    return {scaled * (Float(1.0f) / length), size * length, found};
+    const Vec3f scaled = v * (1.0f / select(found, size, 1.0f));
+    const Float length = select(found, sqrt(dot(scaled, scaled)), 1.0f);
+    return {scaled * (1.0f / length), size * length, found};
   }
 
   /// The unit gradients of the voxels around the value that is nearest to the point, weighted by how near the voxels'
@@ -119,9 +119,9 @@ struct SdfGridShape {
     for (int a = 0; a < 3; ++a) {
       const Axis& axis = axes[a];
       const Mask above = axis.within >= half, below = !above;
-      const Mask exists = (above & (axis.voxel + one < axis.voxels)) | (below & (axis.voxel > Float(0.0f)));
+      const Mask exists = (above & (axis.voxel + one < axis.voxels)) | (below & (axis.voxel > 0.0f));
       const ElementReader there{table.table, table.offset, table.element, active & exists};
-      const UInt face = select(above, first + axis.stride * UInt(2u), first - axis.stride);
+      const UInt face = select(above, first + axis.stride * 2u, first - axis.stride);
       const Float far = across(axes, a, [&](int corner) {
         UInt at = face;
         for (int k = 0; k < 3; ++k) at += UInt((corner >> k) & 1 ? 1u : 0u) * axes[k].stride;
@@ -130,7 +130,7 @@ struct SdfGridShape {
       other[a] = select(exists, select(above, far - high[a], low[a] - far) * axis.voxels, own[a]);
       weight[a] = select(exists, one - abs(axis.within - half), one);
     }
-    Vec3f sum{Float(0.0f), Float(0.0f), Float(0.0f)};
+    Vec3f sum{0.0f, 0.0f, 0.0f};
     for (int i = 0; i < 8; ++i) {
       const Scaled n = unit_vector(
           {(i & 1) != 0 ? other[0] : own[0], (i & 2) != 0 ? other[1] : own[1], (i & 4) != 0 ? other[2] : own[2]});

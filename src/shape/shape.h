@@ -33,8 +33,8 @@ struct LocalSurface {
   Vec3f normal;    ///< unit
   Vec2f uv;
   Vec3f dp_du, dp_dv;
-  Vec3f shading = normal;     ///< unit
-  Float scale = Float(1.0f);  ///< bound of what rounding in the local space is relative to
+  Vec3f shading = normal;  ///< unit
+  Float scale = 1.0f;      ///< bound of what rounding in the local space is relative to
 };
 
 /// The numbers that a shape's host file left in its table, and which of its elements was hit.

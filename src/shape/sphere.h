@@ -1,8 +1,8 @@
 // How spheres are rotated, and their texture coordinates.
 #pragma once
 
+#include "math/gather.h"
 #include "math/special.h"
-#include "math/vec3.h"
 #include "math/warp.h"
 #include "tables/wave_types.h"
 
@@ -17,10 +17,8 @@ struct SphereRotation {
 };
 
 NORRSKEN_INLINE SphereRotation gather_sphere_rotation(const SceneView& scene, UInt shape, Mask active) {
-  constexpr std::uint32_t kFloats = sizeof(ShapeRecord) / sizeof(float);
-  const auto* shapes = reinterpret_cast<const float*>(scene.shapes);
-  const UInt offset = gather_uint(shapes + 5, shape * UInt(kFloats), active);
-  const Mask rotated = active & (offset != UInt(kNone));
+  const UInt offset = gather(scene.shapes, &ShapeRecord::object_from_world, shape, active);
+  const Mask rotated = active & (offset != kNone);
   SphereRotation r;
   for (std::uint32_t k = 0; k < 3; ++k) {
     const Vec3f unit{Float(k == 0 ? 1.0f : 0.0f), Float(k == 1 ? 1.0f : 0.0f), Float(k == 2 ? 1.0f : 0.0f)};
@@ -32,7 +30,7 @@ NORRSKEN_INLINE SphereRotation gather_sphere_rotation(const SceneView& scene, UI
 /// u turns around the local z axis, v goes from the pole at +z to that at -z, as in Mitsuba; of a unit vector.
 NORRSKEN_INLINE Vec2f sphere_uv(const Vec3f& local) {
   const Float turn = atan2(local.y, local.x) * Float(0.5f * kInvPi);
-  return {select(turn < Float(0.0f), turn + Float(1.0f), turn), acos(local.z) * Float(kInvPi)};
+  return {select(turn < 0.0f, turn + 1.0f, turn), acos(local.z) * kInvPi};
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

@@ -28,6 +28,11 @@ NORRSKEN_INLINE Mask& operator|=(Mask& a, Mask b) { return a = a | b; }
 
 NORRSKEN_INLINE bool none(Mask m) { return !any(m); }
 
+/// Of integers: base[index] in the active lanes.
+NORRSKEN_INLINE UInt gather(const std::uint32_t* base, UInt index, Mask m) {
+  return gather_uint(reinterpret_cast<const float*>(base), index, m);
+}
+
 /// Stores the active lanes one behind the other, at any alignment; up to kLanes values behind p may be overwritten.
 NORRSKEN_INLINE void compress_store(float* p, UInt a, const Compaction& c) { compress_store(p, from_bits(a), c); }
 

@@ -20,6 +20,7 @@ using IntTag = hn::FixedTag<std::int32_t, kLanes>;
 
 struct Mask {
   hn::Mask<FloatTag> v;
+  static NORRSKEN_INLINE Mask none() { return {hn::FirstN(FloatTag(), 0)}; }
 };
 
 struct Float {

@@ -13,6 +13,7 @@ inline constexpr int kLanes = 1;
 
 struct Mask {
   bool v;
+  static NORRSKEN_INLINE Mask none() { return {false}; }
 };
 
 struct Float {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "isa/entry.h"
-#include "simd/lanes_check.h"
+#include "simd/lanes_testing.h"
 
 namespace norrsken {
 

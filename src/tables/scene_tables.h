@@ -88,6 +88,8 @@ struct SurfaceRecord {
   MaterialWord material_back;
   std::uint32_t shape;  ///< index into `shapes`
 };
+static_assert(offsetof(SurfaceRecord, material_back) == offsetof(SurfaceRecord, material_front) + sizeof(MaterialWord),
+              "kernels find the word of a side as the first or second of two");
 
 /// What is evaluated on a shape, and with it whether coplanar triangles may count as one.
 enum class Variation : std::uint32_t {
@@ -110,8 +112,6 @@ struct ShapeRecord {
   /// degrees, below 0 without normals. Rays whose cosine is larger see the same side by both.
   float turned_below = 2;
 };
-inline constexpr std::size_t kTurnedBelow = 9;  ///< words before it
-static_assert(offsetof(ShapeRecord, turned_below) == 4 * kTurnedBelow);
 
 /// Where something with a space of its own stands. Affine maps, row by row; the fourth of each row is the translation.
 struct Placement {

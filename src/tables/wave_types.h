@@ -6,6 +6,7 @@
 
 #include "tables/accel_tables.h"
 #include "tables/film_view.h"
+#include "tables/queue.h"
 #include "tables/scene_tables.h"
 
 namespace norrsken {
@@ -70,17 +71,6 @@ struct WaveJob {
   std::uint32_t slot_count() const { return pixel_stride() * sample_count; }
 };
 
-/// Records in structure-of-arrays form: field k of record i is data[k * stride + i]. Integers are stored as their bits.
-/// Every field begins at a multiple of 64 bytes and has kMaxLanes values to spare at its end.
-struct Queue {
-  float* data = nullptr;
-  std::uint32_t stride = 0;
-  std::uint32_t count = 0;
-  std::uint32_t capacity = 0;
-
-  float* field(std::uint32_t k) const { return data + static_cast<std::size_t>(k) * stride; }
-};
-
 struct WaveMemory;
 
 /// What has just been done to a wave.
@@ -99,85 +89,27 @@ struct WaveObserver {
   void* self = nullptr;
 };
 
+/// Where rays ended.
+struct FoundQueues {
+  Queue<stored::Hit> hits[kModelCount];  ///< by BSDF kind; [0], absorb, for features alone
+  Queue<stored::Hit> unresolved_hits;    ///< on materials that are looked through before shading
+  Queue<stored::Hit> light_hits;         ///< on surfaces that emit; they may be in `hits` too
+  Queue<stored::Ray> misses;             ///< only filled if the scene has an environment
+};
+
 /// One worker's memory for one wave.
 struct WaveMemory {
-  Queue slots;              ///< SlotField, one record per slot
-  Queue rays, next_rays;    ///< RayField
-  Queue hits[kModelCount];  ///< HitField, one queue per BSDF kind; [0], absorb, for features alone
-  Queue unresolved_hits;    ///< HitField: materials that are looked through before shading
-  Queue light_hits;         ///< HitField
-  Queue misses;             ///< RayField; only filled if the scene has an environment
-  Queue shadow_rays;        ///< ShadowField
-  Queue connections;        ///< ConnectionField; this and the next only for paths from the lights
-  Queue splats;             ///< SplatField, several bounces of a wave
+  Queue<stored::Slot> slots;  ///< one per path, in the order of WaveJob
+  Queue<stored::Ray> rays, next_rays;
+  FoundQueues found;
+  Queue<stored::ShadowRay> shadow_rays;
+  Queue<stored::Connection> connections;  ///< this and the next only for paths from the lights
+  Queue<stored::Splat> splats;            ///< several bounces of a wave
   WaveObserver observer;
 
   void tell(WaveEvent event) const {
     if (observer.see != nullptr) observer.see(observer.self, event, *this);
   }
-};
-
-/// Fields of the records, by number. src/wave/records.h has the lane types that go in and out.
-enum SlotField : std::uint32_t {
-  kSlotRed,
-  kSlotGreen,
-  kSlotBlue,
-  kSlotKey,
-  kSlotIndex,
-  kSlotWeight,    ///< of the reconstruction filter; only written and read if it is not a box
-  kSlotFeatures,  ///< kFeatureCount fields
-  kSlotFieldCount = kSlotFeatures + kFeatureCount
-};
-enum RayField : std::uint32_t {
-  kRayOriginX,
-  kRayOriginY,
-  kRayOriginZ,
-  kRayDirectionX,
-  kRayDirectionY,
-  kRayDirectionZ,
-  kRayThroughputRed,
-  kRayThroughputGreen,
-  kRayThroughputBlue,
-  kRayPdf,
-  kRayEta2,  ///< only written and read if the scene `refracts`
-  kRaySlot,
-  kRayFieldCount
-};
-/// A hit is its ray and where it ended.
-/// kHitMaps are only written and read if the scene has `any_resolved`, kHitInstance if it has instances.
-enum HitField : std::uint32_t {
-  kHitDistance = kRayFieldCount,
-  kHitPrimitive,
-  kHitMaterial,
-  kHitMaps,  ///< kMostMaps fields
-  kHitInstance = kHitMaps + kMostMaps,
-  kHitFieldCount
-};
-enum ShadowField : std::uint32_t {
-  kShadowOriginX,
-  kShadowOriginY,
-  kShadowOriginZ,
-  kShadowDirectionX,
-  kShadowDirectionY,
-  kShadowDirectionZ,
-  kShadowDistance,
-  kShadowRed,
-  kShadowGreen,
-  kShadowBlue,
-  kShadowSlot,
-  kShadowFieldCount
-};
-/// A connection is a shadow ray to the camera and where on the film it arrives.
-enum ConnectionField : std::uint32_t { kConnectionFilmX = kShadowFieldCount, kConnectionFilmY, kConnectionFieldCount };
-/// What a path from a light leaves on the film: position in pixels, and radiance times the film's pixels per path.
-enum SplatField : std::uint32_t {
-  kSplatFilmX,
-  kSplatFilmY,
-  kSplatRed,
-  kSplatGreen,
-  kSplatBlue,
-  kSplatSlot,
-  kSplatFieldCount
 };
 
 /// Counted by a wave.

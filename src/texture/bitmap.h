@@ -22,13 +22,13 @@ struct Bitmap {
     Mask bilinear;
   };
 
-  static NORRSKEN_INLINE Vec3f evaluate(const SceneView& scene, UInt offset, const TexturePoint& point, Mask active) {
+  static NORRSKEN_INLINE Color evaluate(const SceneView& scene, UInt offset, const TexturePoint& point, Mask active) {
     const Lookup l = look_up(scene, offset, point, active);
-    const Vec3f first = texel(scene, l, l.i[0][0], active);
+    const Color first = texel(scene, l, l.i[0][0], active);
     const Mask blend = active & l.bilinear;
     if (none(blend)) return first;
-    const Vec3f top = mix(first, texel(scene, l, l.i[0][1], blend), l.weight.x);
-    const Vec3f bottom = mix(texel(scene, l, l.i[1][0], blend), texel(scene, l, l.i[1][1], blend), l.weight.x);
+    const Color top = mix(first, texel(scene, l, l.i[0][1], blend), l.weight.x);
+    const Color bottom = mix(texel(scene, l, l.i[1][0], blend), texel(scene, l, l.i[1][1], blend), l.weight.x);
     return select(blend, mix(top, bottom, l.weight.y), first);
   }
 
@@ -50,15 +50,13 @@ struct Bitmap {
   }
 
  private:
-  static NORRSKEN_INLINE Vec3f mix(const Vec3f& a, const Vec3f& b, Float t) { return fma(b - a, t, a); }
-
   static NORRSKEN_INLINE Lookup look_up(const SceneView& scene, UInt offset, const TexturePoint& point, Mask active) {
     const auto word = [&](int k) { return gather_uint(scene.parameters + k, offset, active); };
     Lookup l;
     l.size = {gather(scene.parameters + 6, offset, active), gather(scene.parameters + 7, offset, active)};
     l.texels = word(8), l.stride = word(9), l.table = word(10);
-    const UInt wrap_u = word(11) & UInt(3u), wrap_v = shift_right<2>(word(11));
-    l.bilinear = word(12) == UInt(0u);
+    const UInt wrap_u = word(11) & 3u, wrap_v = shift_right<2>(word(11));
+    l.bilinear = word(12) == 0u;
 
     const Vec2f uv = to_uv(scene, offset, point.uv, active);
     const Float half = select(l.bilinear, Float(0.5f), Float(0.0f));
@@ -66,8 +64,8 @@ struct Bitmap {
     const Float x0 = floor(x), y0 = floor(y);
     l.weight = {x - x0, y - y0};
     const Float width = l.size.x;
-    const UInt columns[2] = {wrapped(x0, width, wrap_u), wrapped(x0 + Float(1.0f), width, wrap_u)};
-    const UInt rows[2] = {wrapped(y0, l.size.y, wrap_v), wrapped(y0 + Float(1.0f), l.size.y, wrap_v)};
+    const UInt columns[2] = {wrapped(x0, width, wrap_u), wrapped(x0 + 1.0f, width, wrap_u)};
+    const UInt rows[2] = {wrapped(y0, l.size.y, wrap_v), wrapped(y0 + 1.0f, l.size.y, wrap_v)};
     for (int row = 0; row < 2; ++row) {
       for (int column = 0; column < 2; ++column) l.i[row][column] = rows[row] * to_uint(width) + columns[column];
     }
@@ -76,29 +74,29 @@ struct Bitmap {
 
   /// The texel of [0, size) that stands at place i of the endless plane; i and size are integers.
   static NORRSKEN_INLINE UInt wrapped(Float i, Float size, UInt wrap) {
-    const Float last = size - Float(1.0f);
-    const Float clamped = min(max(i, Float(0.0f)), last);
+    const Float last = size - 1.0f;
+    const Float clamped = min(max(i, 0.0f), last);
     const Float repeated = fnma(floor(i / size), size, i);
     const Float period = size + size;
     const Float within = fnma(floor(i / period), period, i);
-    const Float mirrored = min(within, period - Float(1.0f) - within);
-    const Float chosen = select(wrap == UInt(0u), repeated, select(wrap == UInt(1u), mirrored, clamped));
+    const Float mirrored = min(within, period - 1.0f - within);
+    const Float chosen = select(wrap == 0u, repeated, select(wrap == 1u, mirrored, clamped));
     // Far out, where floats have no fractions, and for what is no number at all: anything inside.
-    return to_uint(select((chosen >= Float(0.0f)) & (chosen <= last), chosen, Float(0.0f)));
+    return to_uint(select((chosen >= 0.0f) & (chosen <= last), chosen, 0.0f));
   }
 
-  static NORRSKEN_INLINE Vec3f texel(const SceneView& scene, const Lookup& l, UInt i, Mask active) {
-    const Mask packed = active & (l.stride == UInt(0u)), floats = active & (l.stride != UInt(0u));
-    Vec3f color{Float(0.0f), Float(0.0f), Float(0.0f)};
+  static NORRSKEN_INLINE Color texel(const SceneView& scene, const Lookup& l, UInt i, Mask active) {
+    const Mask packed = active & (l.stride == 0u), floats = active & (l.stride != 0u);
+    Color color = black();
     if (any(packed)) {
       const UInt bytes = gather_uint(scene.texels, l.texels + i, packed);
-      const auto value = [&](UInt byte) { return gather(scene.texels, l.table + (byte & UInt(255u)), packed); };
+      const auto value = [&](UInt byte) { return gather(scene.texels, l.table + (byte & 255u), packed); };
       color = {value(bytes), value(shift_right<8>(bytes)), value(shift_right<16>(bytes))};
     }
     if (any(floats)) {
-      const UInt first = l.texels + i * l.stride, step = select(l.stride == UInt(3u), UInt(1u), UInt(0u));
+      const UInt first = l.texels + i * l.stride, step = select(l.stride == 3u, UInt(1u), UInt(0u));
       const auto value = [&](UInt k) { return gather(scene.texels, k, floats); };
-      color = select(floats, Vec3f{value(first), value(first + step), value(first + step + step)}, color);
+      color = select(floats, Color{value(first), value(first + step), value(first + step + step)}, color);
     }
     return color;
   }

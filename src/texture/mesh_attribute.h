@@ -12,35 +12,34 @@ namespace norrsken::NORRSKEN_ISA {
 /// scene's vertex or triangle 0 would be, and the number of channels with 4 added for one value per triangle. 0: the
 /// shape has no such attribute.
 struct MeshAttribute {
-  static NORRSKEN_INLINE Vec3f evaluate(const SceneView& scene, UInt offset, const TexturePoint& point, Mask active) {
+  static NORRSKEN_INLINE Color evaluate(const SceneView& scene, UInt offset, const TexturePoint& point, Mask active) {
     const Float scale = gather(scene.parameters, offset, active);
     const UInt entry = gather_uint(scene.parameters + 1, offset, active) + point.shape + point.shape;
     const UInt first = gather_uint(scene.texels, entry, active), layout = gather_uint(scene.texels + 1, entry, active);
-    const UInt channels = layout & UInt(3u);
-    active &= channels != UInt(0u);
-    const UInt step = select(channels == UInt(3u), UInt(1u), UInt(0u));
+    const UInt channels = layout & 3u;
+    active &= channels != 0u;
+    const UInt step = select(channels == 3u, UInt(1u), UInt(0u));
     const auto value_of = [&](UInt element, Mask m) {
       const UInt at = first + element * channels;
       const auto value = [&](UInt k) { return gather(scene.texels, k, m); };
-      return Vec3f{value(at), value(at + step), value(at + step + step)};
+      return Color{value(at), value(at + step), value(at + step + step)};
     };
 
-    const Mask per_face = active & ((layout & UInt(4u)) != UInt(0u)), per_vertex = active & !per_face;
-    Vec3f value{Float(0.0f), Float(0.0f), Float(0.0f)};
+    const Mask per_face = active & ((layout & 4u) != 0u), per_vertex = active & !per_face;
+    Color value = black();
     if (any(per_face)) value = value_of(point.primitive, per_face);
     if (any(per_vertex)) {
-      const auto* vertices = reinterpret_cast<const float*>(scene.triangle_vertices);
       const Vec2f b = point.barycentric;
-      const Float weights[3] = {Float(1.0f) - b.x - b.y, b.x, b.y};
-      Vec3f sum{Float(0.0f), Float(0.0f), Float(0.0f)};
+      const Float weights[3] = {1.0f - b.x - b.y, b.x, b.y};
+      Color sum = black();
       for (int k = 0; k < 3; ++k) {
-        const UInt vertex = gather_uint(vertices + k, point.primitive * UInt(3u), per_vertex);
+        const UInt vertex = gather(scene.triangle_vertices + k, point.primitive * 3u, per_vertex);
         sum = fma(value_of(vertex, per_vertex), weights[k], sum);
       }
       value = select(per_vertex, sum, value);
     }
-    return {zero_unless(active, value.x * scale), zero_unless(active, value.y * scale),
-            zero_unless(active, value.z * scale)};
+    return {zero_unless(active, value.r * scale), zero_unless(active, value.g * scale),
+            zero_unless(active, value.b * scale)};
   }
 };
 

@@ -7,9 +7,9 @@
 namespace norrsken::NORRSKEN_ISA {
 
 /// The colour of the textures that `words` (see TextureWord) name; for lanes where they name one.
-inline Vec3f evaluate_texture(const SceneView& scene, UInt words, TexturePoint point, Mask active) {
-  Vec3f color{Float(0.0f), Float(0.0f), Float(0.0f)};
-  const UInt kind_bits = words & UInt(kTextureKindMask), offset = words & UInt(kTextureOffsetMask);
+inline Color evaluate_texture(const SceneView& scene, UInt words, TexturePoint point, Mask active) {
+  Color color = black();
+  const UInt kind_bits = words & kTextureKindMask, offset = words & kTextureOffsetMask;
 #define NORRSKEN_TEXTURE(kind, Model)                                                                 \
   if (scene.texture_kinds & (1u << static_cast<std::uint32_t>(TextureKind::kind))) {                  \
     const Mask of_kind = active & (kind_bits == UInt(make_texture(TextureKind::kind, 0)));            \
@@ -32,13 +32,13 @@ struct ParameterReader {
   /// A plain float.
   NORRSKEN_INLINE Float number(std::uint32_t k) const { return gather(scene.parameters + k, offset, active); }
   /// Three plain floats.
-  NORRSKEN_INLINE Vec3f numbers3(std::uint32_t k) const { return gather3(scene.parameters + k, offset, active); }
+  NORRSKEN_INLINE Color numbers3(std::uint32_t k) const { return gather_color(scene.parameters + k, offset, active); }
   /// A colour or its texture: 4 floats.
-  NORRSKEN_INLINE Vec3f color(std::uint32_t k) const {
-    const Vec3f value = numbers3(k);
+  NORRSKEN_INLINE Color color(std::uint32_t k) const {
+    const Color value = numbers3(k);
     if (!any_textures) return value;
     const UInt texture = gather_uint(scene.parameters + k + 3, offset, active);
-    const Mask textured = active & (texture != UInt(0u));
+    const Mask textured = active & (texture != 0u);
     return any(textured) ? select(textured, evaluate_texture(scene, texture, copied(point), textured), value) : value;
   }
   /// A number or its texture: 2 floats.
@@ -46,7 +46,7 @@ struct ParameterReader {
     const Float value = number(k);
     if (!any_textures) return value;
     const UInt texture = gather_uint(scene.parameters + k + 1, offset, active);
-    const Mask textured = active & (texture != UInt(0u));
+    const Mask textured = active & (texture != 0u);
     return any(textured) ? select(textured, luminance(evaluate_texture(scene, texture, copied(point), textured)), value)
                          : value;
   }

@@ -1,12 +1,12 @@
 // What every texture gives to those whose parameters it stands for.
 //
 // A texture is a struct with
-//   static Vec3f evaluate(const SceneView&, UInt offset, const TexturePoint&, Mask active);
+//   static Color evaluate(const SceneView&, UInt offset, const TexturePoint&, Mask active);
 // where `offset` is that of its own floats in the scene's parameters. Numbers are textures too: theirs is the
 // luminance of the colour.
 #pragma once
 
-#include "math/vec3.h"
+#include "color/color.h"
 #include "math/warp.h"
 #include "tables/wave_types.h"
 
@@ -21,11 +21,6 @@ struct TexturePoint {
 };
 NORRSKEN_INLINE TexturePoint copied(const TexturePoint& p) {
   return {{p.uv.x, p.uv.y}, p.primitive, p.shape, {p.barycentric.x, p.barycentric.y}};
-}
-
-/// Of linear sRGB; for the numbers that textures of three channels stand for.
-NORRSKEN_INLINE Float luminance(const Vec3f& c) {
-  return fma(c.x, Float(0.212671f), fma(c.y, Float(0.715160f), c.z * Float(0.072169f)));
 }
 
 /// The affine map of texture coordinates whose six floats (two rows) are stored at `offset`.

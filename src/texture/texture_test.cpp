@@ -9,7 +9,7 @@
 
 #include "base/aligned.h"
 #include "isa/entry.h"
-#include "texture/texture_check.h"
+#include "texture/texture_testing.h"
 
 namespace norrsken {
 

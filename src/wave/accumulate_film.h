@@ -1,4 +1,4 @@
-// Stage: finished SLOTS -> the film's sums.
+// Stage: finished SLOTS -> the film's sums. What is no finite sample is taken out of the slots on the way.
 #pragma once
 
 #include "base/exact_sum.h"
@@ -41,15 +41,17 @@ NORRSKEN_INLINE void add_squares_of_row(const SumPlanes& sums, const float* __re
 }
 
 /// Takes non-finite samples out of one row of pixels: their radiance becomes zero, their count is taken back.
-inline void drop_non_finite(const WaveJob& job, const FilmView& film, const Queue& slots, std::uint32_t sample,
+inline void drop_non_finite(const WaveJob& job, const FilmView& film, Queue<stored::Slot>& slots, std::uint32_t sample,
                             std::uint32_t slot, std::uint32_t pixel, DroppedSamples& dropped) {
   for (std::uint32_t x = 0; x < job.width; ++x) {
     bool finite = true;
-    for (std::uint32_t channel = kSlotRed; channel <= kSlotBlue; ++channel) {
-      finite = finite && slots.field(channel)[slot + x] * 0.0f == 0.0f;
+    for (std::uint32_t channel = 0; channel < 3; ++channel) {
+      finite = finite && slots.field(&stored::Slot::radiance, channel)[slot + x] * 0.0f == 0.0f;
     }
     if (finite) continue;
-    for (std::uint32_t channel = kSlotRed; channel <= kSlotBlue; ++channel) slots.field(channel)[slot + x] = 0.0f;
+    for (std::uint32_t channel = 0; channel < 3; ++channel) {
+      slots.field(&stored::Slot::radiance, channel)[slot + x] = 0.0f;
+    }
     film.counts[pixel + x] = (film.counts[pixel + x] - 1) | kSomeDropped;
     if (dropped.count < DroppedSamples::kKept) {
       dropped.pixel[dropped.count] = pixel + x;
@@ -60,9 +62,10 @@ inline void drop_non_finite(const WaveJob& job, const FilmView& film, const Queu
 }
 
 /// Adds the second moments of a row's colours, XYZ, as weighted means have them.
-inline void add_moments(const FilmView& film, const Queue& slots, std::uint32_t slot, std::uint32_t pixel,
+inline void add_moments(const FilmView& film, const Queue<stored::Slot>& slots, std::uint32_t slot, std::uint32_t pixel,
                         std::uint32_t n) {
-  const float* rgb[3] = {slots.field(kSlotRed) + slot, slots.field(kSlotGreen) + slot, slots.field(kSlotBlue) + slot};
+  const float* rgb[3];
+  for (std::uint32_t k = 0; k < 3; ++k) rgb[k] = slots.field(&stored::Slot::radiance, k) + slot;
   // A copy: reading the constant itself by index would emit it in every instruction set's objects.
   constexpr auto kRows = kXyzFromSrgb;
   for (std::uint32_t k = 0; k < 3; ++k) {
@@ -71,22 +74,22 @@ inline void add_moments(const FilmView& film, const Queue& slots, std::uint32_t 
     for (std::uint32_t i = 0; i < n; ++i) {
       const double v = row[0] * static_cast<double>(rgb[0][i]) + row[1] * static_cast<double>(rgb[1][i]) +
                        row[2] * static_cast<double>(rgb[2][i]);
-      const float weight = film.weighted ? slots.field(kSlotWeight)[slot + i] : 1.0f;
+      const float weight = film.weighted ? slots.field(&stored::Slot::weight)[slot + i] : 1.0f;
       add_exactly(sums.high[i], sums.low[i], rounded_to_24_bits(static_cast<double>(weight) * v * v));
     }
   }
 }
 
 /// Applies the weights that the reconstruction filter gave the samples of a row.
-NORRSKEN_INLINE void weigh_row(const Queue& slots, std::uint32_t slot, std::uint32_t n) {
-  const float* weights = slots.field(kSlotWeight) + slot;
-  for (std::uint32_t channel = kSlotRed; channel <= kSlotBlue; ++channel) {
-    float* values = slots.field(channel) + slot;
+NORRSKEN_INLINE void weigh_row(Queue<stored::Slot>& slots, std::uint32_t slot, std::uint32_t n) {
+  const float* weights = slots.field(&stored::Slot::weight) + slot;
+  for (std::uint32_t channel = 0; channel < 3; ++channel) {
+    float* values = slots.field(&stored::Slot::radiance, channel) + slot;
     for (std::uint32_t i = 0; i < n; ++i) values[i] *= weights[i];
   }
 }
 
-inline void accumulate_film(const WaveJob& job, SamplerKind sampler, const Queue& slots, const FilmView& film,
+inline void accumulate_film(const WaveJob& job, SamplerKind sampler, Queue<stored::Slot>& slots, const FilmView& film,
                             DroppedSamples& dropped) {
   for (std::uint32_t s = 0; s < job.sample_count; ++s) {
     const std::uint32_t sample = job.first_sample + s;
@@ -95,15 +98,15 @@ inline void accumulate_film(const WaveJob& job, SamplerKind sampler, const Queue
       const std::uint32_t slot = s * job.pixel_stride() + y * job.width;
       const std::uint32_t pixel = (job.y0 + y) * film.width + job.x0;
       for (std::uint32_t x = 0; x < job.width; ++x) ++film.counts[pixel + x];
-      if (!all_finite(slots.field(kSlotRed) + slot, job.width) ||
-          !all_finite(slots.field(kSlotGreen) + slot, job.width) ||
-          !all_finite(slots.field(kSlotBlue) + slot, job.width)) {
+      if (!all_finite(slots.field(&stored::Slot::radiance, 0) + slot, job.width) ||
+          !all_finite(slots.field(&stored::Slot::radiance, 1) + slot, job.width) ||
+          !all_finite(slots.field(&stored::Slot::radiance, 2) + slot, job.width)) {
         drop_non_finite(job, film, slots, sample, slot, pixel, dropped);
       }
       if (film.moments.high != nullptr) add_moments(film, slots, slot, pixel, job.width);
       if (film.weighted) weigh_row(slots, slot, job.width);
       for (std::uint32_t channel = 0; channel < 3; ++channel) {
-        const float* values = slots.field(kSlotRed + channel) + slot;
+        const float* values = slots.field(&stored::Slot::radiance, channel) + slot;
         add_row(part_of(film.sums, (first_plane + channel) * film.pixels() + pixel), values, job.width);
         if (sampler == SamplerKind::independent) {
           add_squares_of_row(part_of(film.sums, (3 + channel) * film.pixels() + pixel), values, job.width);
@@ -114,16 +117,16 @@ inline void accumulate_film(const WaveJob& job, SamplerKind sampler, const Queue
 }
 
 /// Adds the features that the film has planes for; of those that have no mean, the pixel's first sample.
-inline void accumulate_features(const WaveJob& job, const Queue& slots, const FilmView& film) {
+inline void accumulate_features(const WaveJob& job, const Queue<stored::Slot>& slots, const FilmView& film) {
   for (std::uint32_t s = 0; s < job.sample_count; ++s) {
     for (std::uint32_t y = 0; y < job.height; ++y) {
       const std::uint32_t slot = s * job.pixel_stride() + y * job.width;
-      const float* weights = slots.field(kSlotWeight) + slot;
+      const float* weights = slots.field(&stored::Slot::weight) + slot;
       std::size_t at = static_cast<std::size_t>(job.y0 + y) * film.width + job.x0;
       for (std::uint32_t rest = film.feature_mask; rest != 0; rest &= rest - 1, at += film.pixels()) {
         const SumPlanes sums = part_of(film.features, at);
         const auto feature = static_cast<std::uint32_t>(__builtin_ctz(rest));
-        const float* values = slots.field(kSlotFeatures + feature) + slot;
+        const float* values = slots.field(&stored::Slot::features, feature) + slot;
         const bool discrete = (kDiscreteFeatures >> feature & 1u) != 0;
         if (discrete && job.first_sample + s > 0) continue;
         if (film.weighted && !discrete) {

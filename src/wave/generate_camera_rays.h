@@ -3,18 +3,13 @@
 
 #include "camera/models.h"
 #include "rfilter/filter.h"
-#include "sampler/sampler.h"
-#include "wave/records.h"
+#include "wave/slots.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
-NORRSKEN_INLINE SampleKey load_sample_key(const Queue& slots, UInt slot, Mask active) {
-  return {gather_uint(slots.field(kSlotKey), slot, active), gather_uint(slots.field(kSlotIndex), slot, active)};
-}
-
 template <class Camera, class Filter>
-inline void generate_rays_of(const SceneView& scene, const Filter& filter, const WaveJob& job, Queue& slots,
-                             Queue& rays) {
+inline void generate_rays_of(const SceneView& scene, const Filter& filter, const WaveJob& job, Slots& slots,
+                             Queue<stored::Ray>& rays) {
   const Sampler sampler{scene.sampler.kind};
   const FilmSettings& film = scene.film;
   const std::uint32_t pixels = job.pixel_count(), stride = job.pixel_stride();
@@ -27,35 +22,37 @@ inline void generate_rays_of(const SceneView& scene, const Filter& filter, const
       const Mask active = first_lanes(first < pixels ? pixels - first : 0u);
       const std::uint32_t slot_base = s * stride + first;
       const UInt local = UInt(first) + lane_index();
-      const UInt row = to_uint((to_float(local) + Float(0.5f)) * inverse_width);
+      const UInt row = to_uint((to_float(local) + 0.5f) * inverse_width);
       const UInt x = UInt(job.x0) + local - row * UInt(job.width), y = UInt(job.y0) + row;
       // Counted over the whole film: a crop window shows the same samples as the film that it is cut from.
       const UInt film_x = x + crop_x, film_y = y + crop_y;
       const UInt pixel = film_y * UInt(static_cast<std::uint32_t>(film.full_width)) + film_x;
       const SampleKey key = make_sample_key(scene.sampler.kind, scene.sampler.seed, pixel, job.first_sample + s);
 
-      for (std::uint32_t channel = kSlotRed; channel <= kSlotBlue; ++channel) {
-        store(slots.field(channel) + slot_base, Float(0.0f));
+      for (std::uint32_t channel = 0; channel < 3; ++channel) {
+        store(slots.field(&stored::Slot::radiance, channel) + slot_base, Float(0.0f));
       }
-      store(slots.field(kSlotKey) + slot_base, key.key);
-      store(slots.field(kSlotIndex) + slot_base, key.index);
+      store_sample_key(slots, slot_base, key);
 
       const FilterSample in_pixel = filter.sample(x, y, sampler.sample_2d(key, camera_dimension::kFilm), active);
-      if (Filter::kWeighted) store(slots.field(kSlotWeight) + slot_base, in_pixel.weight);
-      Vec2f lens{Float(0.0f), Float(0.0f)};
+      if (Filter::kWeighted) store(slots.field(&stored::Slot::weight) + slot_base, in_pixel.weight);
+      Vec2f lens{0.0f, 0.0f};
       if (Camera::kUsesLens) lens = sampler.sample_2d(key, camera_dimension::kLens);
       const CameraRay camera_ray =
           Camera::sample(scene.camera, to_float(film_x) + in_pixel.dx, to_float(film_y) + in_pixel.dy, lens);
-      const Float one(1.0f);
       push(scene, rays,
-           Ray{camera_ray.origin, camera_ray.direction, {one, one, one}, Float(0.0f), UInt(slot_base) + lane_index()},
+           Ray{.origin = camera_ray.origin,
+               .direction = camera_ray.direction,
+               .throughput = white(),
+               .pdf_sa = 0.0f,
+               .slot = UInt(slot_base) + lane_index()},
            active);
     }
   }
 }
 
 /// The camera and the filter are the same for a whole render.
-inline void generate_camera_rays(const SceneView& scene, const WaveJob& job, Queue& slots, Queue& rays) {
+inline void generate_camera_rays(const SceneView& scene, const WaveJob& job, Slots& slots, Queue<stored::Ray>& rays) {
   const bool box = scene.film.filter.kind == FilterKind::box;
   switch (scene.camera.kind) {
 #define NORRSKEN_CAMERA(kind, Model)                                            \

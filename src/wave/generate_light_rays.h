@@ -2,8 +2,7 @@
 #pragma once
 
 #include "light/emit_lights.h"
-#include "sampler/sampler.h"
-#include "wave/records.h"
+#include "wave/slots.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -23,7 +22,7 @@ NORRSKEN_INLINE SampleKey make_light_path_key(SamplerKind kind, std::uint64_t se
   return {key, UInt(round % rounds * paths) + path};
 }
 
-inline void generate_light_rays(const SceneView& scene, const WaveJob& job, Queue& slots, Queue& rays) {
+inline void generate_light_rays(const SceneView& scene, const WaveJob& job, Slots& slots, Queue<stored::Ray>& rays) {
   const Sampler sampler{scene.sampler.kind};
   const auto film_width = static_cast<std::uint32_t>(scene.film.width);
   const std::uint32_t paths = film_width * static_cast<std::uint32_t>(scene.film.height);
@@ -36,18 +35,22 @@ inline void generate_light_rays(const SceneView& scene, const WaveJob& job, Queu
       const Mask active = first_lanes(first < pixels ? pixels - first : 0u);
       const std::uint32_t slot_base = s * stride + first;
       const UInt local = UInt(first) + lane_index();
-      const UInt row = to_uint((to_float(local) + Float(0.5f)) * inverse_width);
+      const UInt row = to_uint((to_float(local) + 0.5f) * inverse_width);
       const UInt path = (UInt(job.y0) + row) * UInt(film_width) + UInt(job.x0) + local - row * UInt(job.width);
       const SampleKey key =
           make_light_path_key(scene.sampler.kind, scene.sampler.seed, path, paths, job.first_sample + s);
-      store(slots.field(kSlotKey) + slot_base, key.key);
-      store(slots.field(kSlotIndex) + slot_base, key.index);
+      store_sample_key(slots, slot_base, key);
 
       const EmittedRay ray = emit_from_lights(scene, sampler.sample_2d(key, emission_dimension::kLight),
                                               sampler.sample_2d(key, emission_dimension::kPosition),
                                               sampler.sample_2d(key, emission_dimension::kDirection), active);
-      const Mask emitted = active & ray.valid & (max_component(ray.weight) > Float(0.0f));
-      push(scene, rays, Ray{ray.origin, ray.direction, ray.weight, Float(0.0f), UInt(slot_base) + lane_index()},
+      const Mask emitted = active & ray.valid & (max_component(ray.weight) > 0.0f);
+      push(scene, rays,
+           Ray{.origin = ray.origin,
+               .direction = ray.direction,
+               .throughput = ray.weight,
+               .pdf_sa = 0.0f,
+               .slot = UInt(slot_base) + lane_index()},
            emitted);
     }
   }

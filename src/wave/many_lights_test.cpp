@@ -54,7 +54,7 @@ Estimate estimate(const SceneView& scene, const KernelEntry& kernels) {
     kernels.trace_wave(scene, job, memory, counts);
     for (std::uint32_t s = 0; s < 4; ++s) {
       for (std::uint32_t p = 0; p < kSize * kSize; ++p) {
-        const double value = double{memory.slots.field(kSlotGreen)[s * job.pixel_stride() + p]};
+        const double value = double{memory.slots.field(&stored::Slot::radiance, 1)[s * job.pixel_stride() + p]};
         sums[p] += value, squares[p] += value * value;
       }
     }

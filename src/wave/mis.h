@@ -3,7 +3,7 @@
 #pragma once
 
 #include "light/sample_lights.h"
-#include "wave/records.h"
+#include "wave/slots.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -11,17 +11,17 @@ namespace norrsken::NORRSKEN_ISA {
 NORRSKEN_INLINE Float power_heuristic(Float count, Float pdf, Float other_count, Float other) {
   // As a ratio, so that squares of large densities do not overflow.
   const Float ratio = (other_count * other) / (count * pdf);
-  return Float(1.0f) / fma(ratio, ratio, Float(1.0f));
+  return 1.0f / fma(ratio, ratio, 1.0f);
 }
 
 /// The weight of what a ray found on `light`, `distance` away: 1 where no light sampling competes with it.
 NORRSKEN_INLINE Float weight_of_found(const SceneView& scene, UInt light, const Ray& ray, Float distance, Mask active) {
-  const Mask competed = active & (ray.pdf_sa > Float(0.0f));
-  if (none(competed)) return Float(1.0f);
+  const Mask competed = active & (ray.pdf_sa > 0.0f);
+  if (none(competed)) return 1.0f;
   const Float light_samples(static_cast<float>(scene.integrator.emitter_samples));
   const Float bsdf_samples(static_cast<float>(scene.integrator.bsdf_samples));
   const Float light_pdf = light_pdf_sa(scene, light, copied(ray.origin), copied(ray.direction), distance, competed);
-  return select(competed, power_heuristic(bsdf_samples, ray.pdf_sa, light_samples, light_pdf), Float(1.0f));
+  return select(competed, power_heuristic(bsdf_samples, ray.pdf_sa, light_samples, light_pdf), 1.0f);
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

@@ -35,9 +35,9 @@ struct Perturbation {
       const MapLevel& level = levels[k];
       const Float cos_theta = dot(direction, level.normal);
       const Float cos2 = cos_theta * cos_theta;
-      const Float tan2 = max(Float(1.0f) - cos2, Float(0.0f)) / cos2;
-      const Float shadowing = Float(2.0f) / (Float(1.0f) + sqrt(fma(level.alpha2, tan2, Float(1.0f))));
-      const Float weight = zero_unless(cos_theta * cos_inside > Float(0.0f), shadowing);
+      const Float tan2 = max(1.0f - cos2, 0.0f) / cos2;
+      const Float shadowing = 2.0f / (1.0f + sqrt(fma(level.alpha2, tan2, 1.0f)));
+      const Float weight = zero_unless(cos_theta * cos_inside > 0.0f, shadowing);
       product = select(level.lanes, product * weight, product);
       cos_inside = select(level.lanes, cos_theta * level.turn, cos_inside);
     }
@@ -51,7 +51,7 @@ struct MappedFrame {
   Frame seen;     ///< the same as directions see it: mirrored by every `twosided` so far that is seen from the back
 
   /// Where the ray comes from the back of it.
-  NORRSKEN_INLINE Mask from_back(const Vec3f& direction) const { return dot(direction, seen.n) > Float(0.0f); }
+  NORRSKEN_INLINE Mask from_back(const Vec3f& direction) const { return dot(direction, seen.n) > 0.0f; }
 };
 
 /// Around all maps. From the back the point's frame is mirrored in the surface: see make_surface_point.
@@ -68,37 +68,37 @@ struct EnteredMap {
 /// What is inside of the map `word`, for lanes with one. Not inlined: few scenes have one, and every BSDF would repeat it.
 __attribute__((noinline)) inline EnteredMap enter_map(const SceneView& scene, UInt word, Vec3f direction,
                                                       SurfacePoint point, MappedFrame around, Mask lanes) {
-  const ParameterReader parameters{scene, word & UInt(kMaterialOffsetMask), point.texture, lanes};
+  const ParameterReader parameters{scene, word & kMaterialOffsetMask, point.texture, lanes};
   const UInt flags = bits(parameters.number(2));
   // A map for the front that is seen from the back stands in a `twosided`, which mirrors directions in the surface there.
-  const Mask made_for_back = (flags & UInt(kPerturbBack)) != UInt(0u);
+  const Mask made_for_back = (flags & kPerturbBack) != 0u;
   const Mask mirrored = lanes & (around.from_back(direction) ^ made_for_back);
   const Float turn = select(mirrored, Float(-1.0f), Float(1.0f));
   Frame& seen = around.seen;
   seen.n = seen.n * turn;
 
   const Unperturbed outside{around.surface, point.normal, point.dp_du, point.dp_dv};
-  Vec3f n{Float(0.0f), Float(0.0f), Float(1.0f)};
-#define NORRSKEN_BSDF_PERTURBING(kind, Adapter)                                                                \
-  if (scene.bsdf_kinds & (1u << static_cast<std::uint32_t>(BsdfKind::kind))) {                                 \
-    const Mask of_kind = lanes & ((word & UInt(kMaterialKindMask)) == UInt(make_material(BsdfKind::kind, 0))); \
-    if (any(of_kind))                                                                                          \
-      n = select(of_kind, Adapter::normal({scene, parameters.offset, point.texture, of_kind}, outside), n);    \
+  Vec3f n{0.0f, 0.0f, 1.0f};
+#define NORRSKEN_BSDF_PERTURBING(kind, Adapter)                                                             \
+  if (scene.bsdf_kinds & (1u << static_cast<std::uint32_t>(BsdfKind::kind))) {                              \
+    const Mask of_kind = lanes & ((word & kMaterialKindMask) == UInt(make_material(BsdfKind::kind, 0)));    \
+    if (any(of_kind))                                                                                       \
+      n = select(of_kind, Adapter::normal({scene, parameters.offset, point.texture, of_kind}, outside), n); \
   }
 #include "lists/bsdf_resolved.def"
 #undef NORRSKEN_BSDF_PERTURBING
 
   const Vec3f wo = seen.to_local(-direction);
-  const Mask flip = ((flags & UInt(kPerturbFlips)) != UInt(0u)) & (wo.z * dot(wo, n) <= Float(0.0f));
+  const Mask flip = ((flags & kPerturbFlips) != 0u) & (wo.z * dot(wo, n) <= 0.0f);
   n = {select(flip, -n.x, n.x), select(flip, -n.y, n.y), n.z};
-  const Float inv_length = Float(1.0f) / sqrt(dot(n, n));
-  const Mask usable = inv_length < Float(kInfinity);  // also false for what is no number
-  n = select(usable, n * inv_length, Vec3f{Float(0.0f), Float(0.0f), Float(1.0f)});
+  const Float inv_length = 1.0f / sqrt(dot(n, n));
+  const Mask usable = inv_length < kInfinity;  // also false for what is no number
+  n = select(usable, n * inv_length, Vec3f{0.0f, 0.0f, 1.0f});
   const Float tan2 = fma(n.x, n.x, n.y * n.y) / (n.z * n.z);
-  const Mask shadows = (flags & UInt(kPerturbShadows)) != UInt(0u);
-  const MapLevel level{lanes, seen.n, turn, zero_unless(shadows, min(Float(0.125f) * tan2, Float(1.0f)))};
+  const Mask shadows = (flags & kPerturbShadows) != 0u;
+  const MapLevel level{lanes, seen.n, turn, zero_unless(shadows, min(0.125f * tan2, 1.0f))};
 
-  const Frame turned = frame_along(n, {Float(1.0f), Float(0.0f), Float(0.0f)});
+  const Frame turned = frame_along(n, {1.0f, 0.0f, 0.0f});
   const auto within = [&](const Frame& f) {
     return Frame{select(lanes, f.to_world(turned.s), f.s), select(lanes, f.to_world(turned.t), f.t),
                  select(lanes, f.to_world(turned.n), f.n)};
@@ -117,7 +117,7 @@ __attribute__((noinline)) inline PerturbedFrame perturbed_frame(const SceneView&
   PerturbedFrame p;
   MappedFrame frame = unmapped_frame(point);
   for (std::uint32_t k = 0; k < kMostMaps; ++k) {
-    const Mask lanes = active & (hit.maps[k] != UInt(0u));
+    const Mask lanes = active & (hit.maps[k] != 0u);
     if (none(lanes)) break;
     const EnteredMap entered = enter_map(scene, hit.maps[k], hit.ray.direction, point, frame, lanes);
     frame = entered.inside;
@@ -133,7 +133,7 @@ __attribute__((noinline)) inline PerturbedFrame perturbed_frame(const SceneView&
 template <class Scene>
 NORRSKEN_INLINE Perturbation perturb_frame(const Scene& scene, const Hit& hit, SurfacePoint& surface, Mask active) {
   if (scene.any_resolved) {
-    const Mask lanes = active & (hit.maps[0] != UInt(0u));
+    const Mask lanes = active & (hit.maps[0] != 0u);
     if (any(lanes)) {
       const PerturbedFrame perturbed = perturbed_frame(scene, hit, copied(surface), active);
       surface.frame = {select(lanes, perturbed.frame.s, surface.frame.s),

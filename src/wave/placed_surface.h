@@ -54,16 +54,14 @@ __attribute__((noinline)) inline PlacedSurface surface_in_world(const SceneView&
 /// The point of the analytic shape `analytic` that is next to `p`; `element` is the one of its elements that was hit.
 __attribute__((noinline)) inline PlacedSurface analytic_surface(const SceneView& scene, UInt analytic, UInt element,
                                                                 Vec3f p, Mask active) {
-  constexpr std::uint32_t kFloats = sizeof(AnalyticRecord) / sizeof(float);
-  const UInt record = analytic * UInt(kFloats);
-  const Affine to = gather_affine(scene.analytics->place.world_from_local, record, active);
-  const Affine from = gather_affine(scene.analytics->place.local_from_world, record, active);
-  const auto* words = reinterpret_cast<const float*>(scene.analytics) + sizeof(Placement) / sizeof(float);
-  const UInt kinds = gather_uint(words, record, active);
-  const Mask flipped = active & (gather_uint(words + 1, record, active) != UInt(0u));
+  const auto of_shape = [&](auto... members) { return gather(scene.analytics, members..., analytic, active); };
+  const Affine to = of_shape(&AnalyticRecord::place, &Placement::world_from_local);
+  const Affine from = of_shape(&AnalyticRecord::place, &Placement::local_from_world);
+  const UInt kinds = of_shape(&AnalyticRecord::kind);
+  const Mask flipped = active & (of_shape(&AnalyticRecord::flip_normals) != 0u);
 
   const Vec3f local_p = from.point(p);
-  const ElementReader table{scene.texels, gather_uint(words + 3, record, active), element, active};
+  const ElementReader table{scene.texels, of_shape(&AnalyticRecord::table), element, active};
   LocalSurface local{};
 #define NORRSKEN_ANALYTIC(kind, Model)                                                             \
   if (scene.analytic_kinds & (1u << static_cast<std::uint32_t>(AnalyticKind::kind))) {             \

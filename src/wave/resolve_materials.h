@@ -2,10 +2,9 @@
 #pragma once
 
 #include "bsdf/models.h"
-#include "sampler/sampler.h"
-#include "wave/generate_camera_rays.h"
-#include "wave/intersect_closest.h"
+#include "wave/hits.h"
 #include "wave/perturbed_frame.h"
+#include "wave/slots.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -16,20 +15,20 @@ NORRSKEN_INLINE void look_behind_map(const SceneView& scene, const SurfacePoint&
   const UInt map = hit.material & UInt(kMaterialKindMask | kMaterialOffsetMask);
   Mask unplaced = maps;
   for (UInt& place : hit.maps) {
-    const Mask here = unplaced & (place == UInt(0u));
+    const Mask here = unplaced & (place == 0u);
     place = select(here, map, place);
     unplaced = unplaced & !here;
   }
   frame = enter_map(scene, map, copied(hit.ray.direction), copied(surface), frame, maps).inside;
   const UInt back = select(frame.from_back(hit.ray.direction), UInt(1u), UInt(0u));
-  const UInt behind = gather_uint(scene.parameters, (map & UInt(kMaterialOffsetMask)) + back, maps);
+  const UInt behind = gather_uint(scene.parameters, (map & kMaterialOffsetMask) + back, maps);
   hit.material = select(maps, behind, hit.material);
 }
 
 template <class Adapter>
 NORRSKEN_INLINE void look_behind_adapter(const SceneView& scene, const SurfacePoint& surface, Hit& hit,
                                          MappedFrame& frame, Choice& choice, Mask of_kind) {
-  const ParameterReader parameters{scene, hit.material & UInt(kMaterialOffsetMask), surface.texture, of_kind};
+  const ParameterReader parameters{scene, hit.material & kMaterialOffsetMask, surface.texture, of_kind};
   if constexpr (requires { Adapter::behind(parameters, choice); }) {
     hit.material = select(of_kind, Adapter::behind(parameters, choice), hit.material);
   } else {
@@ -40,7 +39,7 @@ NORRSKEN_INLINE void look_behind_adapter(const SceneView& scene, const SurfacePo
 /// Looks through one adapter in each lane that has one.
 NORRSKEN_INLINE void look_behind(const SceneView& scene, const SurfacePoint& surface, Hit& hit, MappedFrame& frame,
                                  Choice& choice, Mask open) {
-  const UInt kind_bits = hit.material & UInt(kMaterialKindMask);
+  const UInt kind_bits = hit.material & kMaterialKindMask;
 #define NORRSKEN_BSDF_RESOLVED(kind, Adapter)                                                    \
   if (scene.bsdf_kinds & (1u << static_cast<std::uint32_t>(BsdfKind::kind))) {                   \
     const Mask of_kind = open & (kind_bits == UInt(make_material(BsdfKind::kind, 0)));           \
@@ -55,21 +54,18 @@ inline constexpr std::uint32_t kByChance = ~0u;
 /// Finds one model behind each hit: by chance, or the one that `code` leads to, if any, with the throughput weighted.
 /// `wanted_kinds` as in intersect_closest.
 inline void resolve_materials(const SceneView& scene, std::uint32_t hit_number, std::uint32_t code,
-                              std::uint32_t wanted_kinds, WaveMemory& memory) {
+                              std::uint32_t wanted_kinds, const Hits& unresolved_hits, const Slots& slots,
+                              Hits (&hits)[kModelCount]) {
   const Sampler sampler{scene.sampler.kind};
-  const Queue& hits = memory.unresolved_hits;
   const std::uint32_t dimension = first_dimension_of_hit(hit_number) + hit_dimension::kMaterial;
-  for (std::uint32_t i = 0; i < hits.count; i += kLanes) {
-    Mask active = first_lanes(hits.count - i);
-    Hit hit = load_hit(scene, hits, i);
+  for (std::uint32_t i = 0; i < unresolved_hits.count; i += kLanes) {
+    Mask active = first_lanes(unresolved_hits.count - i);
+    Hit hit = load<Hit>(scene, unresolved_hits, i);
     const SurfacePoint surface = make_surface_point(scene, hit, active);
-    const SampleKey key = load_sample_key(memory.slots, hit.ray.slot, active);
+    const SampleKey key = load_sample_key(slots, hit.ray.slot, active);
     Choice choice = code == kByChance ? Choice::by_chance(sampler.sample_1d(key, dimension)) : Choice::by_code(code);
     MappedFrame frame = unmapped_frame(surface);
-    const auto unresolved = [&] {
-      return active &
-             !(to_float(hit.material & UInt(kMaterialKindMask)) < Float(static_cast<float>(kModelCount << 24)));
-    };
+    const auto unresolved = [&] { return active & is_unresolved(hit.material); };
     // Comes to an end: a word leads only to words that were made before it.
     for (Mask open = unresolved(); any(open); open = unresolved())
       look_behind(scene, surface, hit, frame, choice, open);
@@ -77,7 +73,7 @@ inline void resolve_materials(const SceneView& scene, std::uint32_t hit_number, 
       active &= choice.is_way();
       hit.ray.throughput = hit.ray.throughput * choice.weight();
     }
-    push_by_kind(scene, hit, wanted_kinds, memory, active);
+    push_by_kind(scene, hit, wanted_kinds, hits, active);
   }
 }
 

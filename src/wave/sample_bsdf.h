@@ -10,7 +10,7 @@ namespace norrsken::NORRSKEN_ISA {
 template <class Model>
 NORRSKEN_INLINE BsdfSample sample_bsdf(const Sampler& sampler, const SampleKey& key, std::uint32_t dimension,
                                        const typename Model::Parameters& bsdf, const Vec3f& wo) {
-  Vec2f u{Float(0.0f), Float(0.0f)};
+  Vec2f u{0.0f, 0.0f};
   if (!Model::kDelta) u = sampler.sample_2d(key, dimension + hit_dimension::kBsdfDirection);
   Float lobe(0.0f);
   if (Model::kUsesLobe) lobe = sampler.sample_1d(key, dimension + hit_dimension::kBsdfLobe);

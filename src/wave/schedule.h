@@ -11,6 +11,8 @@
 //                    +-------> SLOTS <--- intersect_shadow <--+ SHADOW RAYS
 #pragma once
 
+#include <utility>
+
 #include "bsdf/models.h"
 #include "wave/accumulate_film.h"
 #include "wave/generate_camera_rays.h"
@@ -37,12 +39,12 @@ inline constexpr std::uint32_t kSampledByLights = 0u
 /// Shades the hits of one kind and traces their shadow rays, in portions that fit the shadow queue: portions of the
 /// hits, and of the light samples per hit where those are many.
 template <class Model>
-inline void shade_kind(const SceneView& scene, ShadeSettings settings, const Queue& hits, WaveMemory& memory,
+inline void shade_kind(const SceneView& scene, ShadeSettings settings, const Hits& hits, WaveMemory& memory,
                        WaveCounts& counts) {
   const auto light_samples = settings.lights ? static_cast<std::uint32_t>(scene.integrator.emitter_samples) : 0u;
-  const std::uint32_t most = memory.shadow_rays.capacity / kMaxLanes;
+  const std::uint32_t most = memory.shadow_rays.capacity() / kMaxLanes;
   const std::uint32_t per_pass = light_samples < most ? light_samples : most;
-  const std::uint32_t portion = memory.shadow_rays.capacity / (per_pass > 0 ? per_pass : 1) / kMaxLanes * kMaxLanes;
+  const std::uint32_t portion = memory.shadow_rays.capacity() / (per_pass > 0 ? per_pass : 1) / kMaxLanes * kMaxLanes;
   const bool next_rays = settings.next_rays;
   for (std::uint32_t begin = 0; begin < hits.count; begin += portion) {
     const std::uint32_t end = hits.count - begin < portion ? hits.count : begin + portion;
@@ -64,30 +66,27 @@ inline void shade_kind(const SceneView& scene, ShadeSettings settings, const Que
 inline void shade_surfaces(const SceneView& scene, const ShadeSettings& settings, WaveMemory& memory,
                            WaveCounts& counts) {
 #define NORRSKEN_BSDF(kind, Model) \
-  shade_kind<Model>(scene, settings, memory.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory, counts);
+  shade_kind<Model>(scene, settings, memory.found.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory, counts);
 #include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
 }
 
-NORRSKEN_INLINE void clear_model_hits(WaveMemory& memory) {
-  for (Queue& q : memory.hits) q.count = 0;
+NORRSKEN_INLINE void clear(Hits (&hits)[kModelCount]) {
+  for (Hits& of_kind : hits) of_kind.count = 0;
 }
 
-NORRSKEN_INLINE void clear_hits(WaveMemory& memory) {
-  clear_model_hits(memory);
-  memory.light_hits.count = 0;
-  memory.unresolved_hits.count = 0;
-  memory.misses.count = 0;
+NORRSKEN_INLINE void clear(FoundQueues& found) {
+  clear(found.hits);
+  found.unresolved_hits.count = found.light_hits.count = found.misses.count = 0;
 }
 
 /// The emission that a path's last rays find, in memory.rays.
 inline void finish_paths(const SceneView& scene, WaveMemory& memory, WaveCounts& counts) {
   counts.closest_rays += memory.rays.count;
-  memory.light_hits.count = 0;
-  memory.misses.count = 0;
-  intersect_emitters(scene, memory.rays, memory);
-  shade_emission(scene, memory.light_hits, memory.slots);
-  shade_miss(scene, memory.misses, memory.slots);
+  memory.found.light_hits.count = memory.found.misses.count = 0;
+  intersect_emitters(scene, memory.rays, memory.slots, memory.found);
+  shade_emission(scene, memory.found.light_hits, memory.slots);
+  shade_miss(scene, memory.found.misses, memory.slots);
   memory.tell(WaveEvent::emission);
 }
 
@@ -97,18 +96,16 @@ inline void sample_further_directions(const SceneView& scene, ShadeSettings sett
   const auto n = static_cast<std::uint32_t>(scene.integrator.bsdf_samples);
   settings.lights = false;
   for (settings.bsdf_sample = 1; settings.bsdf_sample < n; ++settings.bsdf_sample) {
-    Queue& rays = memory.rays;
-    rays.count = 0;
-    const Queue first = memory.next_rays;
-    memory.next_rays = rays;
+    // Meanwhile the first direction's next rays stand where the rays of this bounce did, which are done with.
+    std::swap(memory.rays, memory.next_rays);
+    memory.next_rays.count = 0;
     shade_surfaces(scene, settings, memory, counts);
-    memory.rays = memory.next_rays;
-    memory.next_rays = first;
+    std::swap(memory.rays, memory.next_rays);
     finish_paths(scene, memory, counts);
   }
 }
 
-/// Shades what is in memory.hits, with all directions that are wanted of it.
+/// Shades what is in memory.found.hits, with all directions that are wanted of it.
 inline void shade_hits(const SceneView& scene, const ShadeSettings& settings, WaveMemory& memory, WaveCounts& counts) {
   shade_surfaces(scene, settings, memory, counts);
   if (scene.integrator.bsdf_samples > 1 && settings.next_rays) {
@@ -122,16 +119,18 @@ inline void shade_all_behind(const SceneView& scene, ShadeSettings settings, Wav
   const bool next_rays = settings.next_rays;
   if (next_rays) {
     settings.lights = false;
-    clear_model_hits(memory);
-    resolve_materials(scene, settings.hit_number, kByChance, kAllScattering, memory);
+    clear(memory.found.hits);
+    resolve_materials(scene, settings.hit_number, kByChance, kAllScattering, memory.found.unresolved_hits, memory.slots,
+                      memory.found.hits);
     memory.tell(WaveEvent::resolved);
     shade_hits(scene, settings, memory, counts);
   }
   settings.lights = true;
   settings.next_rays = false;
   for (std::uint32_t code = 0; code < scene.material_codes; ++code) {
-    clear_model_hits(memory);
-    resolve_materials(scene, settings.hit_number, code, kSampledByLights, memory);
+    clear(memory.found.hits);
+    resolve_materials(scene, settings.hit_number, code, kSampledByLights, memory.found.unresolved_hits, memory.slots,
+                      memory.found.hits);
     shade_surfaces(scene, settings, memory, counts);
   }
 }
@@ -151,34 +150,35 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
   for (std::uint32_t hit_number = 1; hit_number <= max_depth && memory.rays.count > 0; ++hit_number) {
     const bool last = hit_number == max_depth;
     counts.closest_rays += memory.rays.count;
-    clear_hits(memory);
+    clear(memory.found);
     memory.next_rays.count = 0;
     if (last && hit_number > 1) {
-      intersect_emitters(scene, memory.rays, memory);
+      intersect_emitters(scene, memory.rays, memory.slots, memory.found);
     } else {
-      intersect_closest(scene, hit_number, last ? 0u : kAllScattering, memory.rays, memory);
+      intersect_closest(scene, hit_number == 1, last ? 0u : kAllScattering, memory.rays, memory.slots, memory.found);
     }
     memory.tell(WaveEvent::intersected);
-    if (!last && scene.material_codes == 1 && memory.unresolved_hits.count > 0) {
-      resolve_materials(scene, hit_number, kByChance, kAllScattering, memory);
+    if (!last && scene.material_codes == 1 && memory.found.unresolved_hits.count > 0) {
+      resolve_materials(scene, hit_number, kByChance, kAllScattering, memory.found.unresolved_hits, memory.slots,
+                        memory.found.hits);
       memory.tell(WaveEvent::resolved);
     }
     if (!(integrator.hide_emitters && hit_number == 1)) {
-      shade_emission(scene, memory.light_hits, memory.slots);
-      shade_miss(scene, memory.misses, memory.slots);
+      shade_emission(scene, memory.found.light_hits, memory.slots);
+      shade_miss(scene, memory.found.misses, memory.slots);
       memory.tell(WaveEvent::emission);
     }
     if (last) break;
     // A path's last ray can only find an area light; without one there is no need to send it.
     const bool next_is_last = hit_number + 1 == max_depth;
     const bool anything_to_find = !next_is_last || scene.any_area_light || scene.environment != kNone;
-    const ShadeSettings settings{hit_number, 0, 0, anything_to_find && integrator.bsdf_samples > 0,
-                                 hit_number >= static_cast<std::uint32_t>(integrator.rr_depth)};
+    const ShadeSettings settings{.hit_number = hit_number,
+                                 .next_rays = anything_to_find && integrator.bsdf_samples > 0,
+                                 .roulette = hit_number >= static_cast<std::uint32_t>(integrator.rr_depth)};
     shade_hits(scene, settings, memory, counts);
-    if (scene.material_codes > 1 && memory.unresolved_hits.count > 0) shade_all_behind(scene, settings, memory, counts);
-    const Queue finished = memory.rays;
-    memory.rays = memory.next_rays;
-    memory.next_rays = finished;
+    if (scene.material_codes > 1 && memory.found.unresolved_hits.count > 0)
+      shade_all_behind(scene, settings, memory, counts);
+    std::swap(memory.rays, memory.next_rays);
     memory.tell(WaveEvent::next_rays);
   }
 }
@@ -187,16 +187,17 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
 inline void trace_features(const SceneView& scene, const WaveJob& job, WaveMemory& memory, WaveCounts& counts) {
   generate_camera_rays(scene, job, memory.slots, memory.rays);
   if (scene.integrator.hide_emitters && scene.any_area_light) skip_emitters(scene, memory.rays);
-  for (std::uint32_t k = kSlotFeatures; k < kSlotFieldCount; ++k) {
-    for (std::uint32_t i = 0; i < memory.slots.count; i += kLanes) store(memory.slots.field(k) + i, Float(0.0f));
+  for (std::uint32_t k = 0; k < kFeatureCount; ++k) {
+    float* feature = memory.slots.field(&stored::Slot::features, k);
+    for (std::uint32_t i = 0; i < memory.slots.count; i += kLanes) store(feature + i, Float(0.0f));
   }
-  clear_hits(memory);
+  clear(memory.found);
   counts.closest_rays += memory.rays.count;
-  intersect_closest(scene, 1, ~0u, memory.rays, memory);
-  resolve_materials(scene, 1, kByChance, ~0u, memory);
-  shade_features<Absorb>(scene, memory.hits[0], memory.slots);
+  intersect_closest(scene, true, ~0u, memory.rays, memory.slots, memory.found);
+  resolve_materials(scene, 1, kByChance, ~0u, memory.found.unresolved_hits, memory.slots, memory.found.hits);
+  shade_features<Absorb>(scene, memory.found.hits[0], memory.slots);
 #define NORRSKEN_BSDF(kind, Model) \
-  shade_features<Model>(scene, memory.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory.slots);
+  shade_features<Model>(scene, memory.found.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory.slots);
 #include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
 }

@@ -3,15 +3,16 @@
 
 #include "camera/camera.h"
 #include "wave/perturbed_frame.h"
+#include "wave/slots.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
 /// Stores a register's values of one feature to the slots of its active lanes.
-NORRSKEN_INLINE void store_feature(const Queue& slots, std::uint32_t feature, UInt slot, Float value, Mask active) {
+NORRSKEN_INLINE void store_feature(Slots& slots, std::uint32_t feature, UInt slot, Float value, Mask active) {
   alignas(64) float lanes[kLanes], index[kLanes];
   store(index, slot);
   store(lanes, value);
-  float* field = slots.field(kSlotFeatures + feature);
+  float* field = slots.field(&stored::Slot::features, feature);
   for (std::uint32_t rest = to_bits(active); rest != 0; rest &= rest - 1) {
     const int lane = __builtin_ctz(rest);
     std::uint32_t s;
@@ -21,16 +22,16 @@ NORRSKEN_INLINE void store_feature(const Queue& slots, std::uint32_t feature, UI
 }
 
 template <class Model>
-inline void shade_features(const SceneView& scene, const Queue& hits, Queue& slots) {
+inline void shade_features(const SceneView& scene, const Queue<stored::Hit>& hits, Slots& slots) {
   for (std::uint32_t i = 0; i < hits.count; i += kLanes) {
     const Mask active = first_lanes(hits.count - i);
-    const Hit hit = load_hit(scene, hits, i);
+    const Hit hit = load<Hit>(scene, hits, i);
     SurfacePoint surface = make_surface_point(scene, hit, active);
     perturb_frame(scene, hit, surface, active);
     const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));
-    const Vec3f albedo = Model::albedo(bsdf);
+    const Color albedo = Model::albedo(bsdf);
     const UInt shape = shape_of(scene, hit.primitive, active);
-    const UInt first_primitive = gather_uint(reinterpret_cast<const float*>(scene.shapes), shape_index(shape), active);
+    const UInt first_primitive = gather(scene.shapes, &ShapeRecord::first_primitive, shape, active);
     const Float along_axis = dot(hit.ray.direction, broadcast(scene.camera.forward));
     const Vec3f facing = surface.frame.n, p = surface.position;
     const Vec3f geometric = surface.normal, shading = facing * surface.side;
@@ -39,11 +40,11 @@ inline void shade_features(const SceneView& scene, const Queue& hits, Queue& slo
         facing.x,
         facing.y,
         facing.z,
-        albedo.x,
-        albedo.y,
-        albedo.z,
-        to_float(shape + UInt(1u)),
-        Float(1.0f),
+        albedo.r,
+        albedo.g,
+        albedo.b,
+        to_float(shape + 1u),
+        1.0f,
         hit.t + distance_to_near_plane(scene.camera, hit.ray.direction),
         p.x,
         p.y,

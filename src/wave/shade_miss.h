@@ -5,11 +5,11 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-inline void shade_miss(const SceneView& scene, const Queue& misses, Queue& slots) {
+inline void shade_miss(const SceneView& scene, const Queue<stored::Ray>& misses, Slots& slots) {
   for (std::uint32_t i = 0; i < misses.count; i += kLanes) {
     const Mask active = first_lanes(misses.count - i);
-    const Ray ray = load_ray(scene, misses, i);
-    const Vec3f radiance = environment_radiance(scene, copied(ray.direction), active);
+    const Ray ray = load<Ray>(scene, misses, i);
+    const Color radiance = environment_radiance(scene, copied(ray.direction), active);
     const Float weight = weight_of_found(scene, UInt(scene.environment), ray, Float(2.0f * scene.radius), active);
     add_radiance(slots, ray.slot, ray.throughput * radiance * weight, active);
   }

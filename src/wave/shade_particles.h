@@ -6,10 +6,10 @@
 //   |wo.ns wi.ng| / |wo.ng wi.ns|, since cosines are taken to the shading normal ns instead of the surface's own, ng.
 #pragma once
 
-#include "wave/generate_camera_rays.h"
-#include "wave/intersect_connections.h"
+#include "camera/models.h"
 #include "wave/perturbed_frame.h"
 #include "wave/sample_bsdf.h"
+#include "wave/slots.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -33,9 +33,9 @@ template <class Model>
 NORRSKEN_INLINE Float decompression(const typename Model::Parameters& bsdf, const Vec3f& wi_local) {
   if constexpr (requires { Model::refracted_eta(bsdf); }) {
     const Float eta = Model::refracted_eta(bsdf);
-    return select(wi_local.z < Float(0.0f), eta * eta, Float(1.0f));
+    return select(wi_local.z < 0.0f, eta * eta, 1.0f);
   } else {
-    return Float(1.0f);
+    return 1.0f;
   }
 }
 
@@ -63,7 +63,7 @@ NORRSKEN_INLINE CameraConnection connect_point(const SceneView& scene, const Vec
 template <class Model>
 NORRSKEN_INLINE void connect_to_camera(const SceneView& scene, const Hit& hit, const SurfacePoint& surface,
                                        const typename Model::Parameters& bsdf, const Vec3f& wo_local, Vec2f lens,
-                                       Queue& connections, Mask active) {
+                                       Queue<stored::Connection>& connections, Mask active) {
   const CameraConnection camera = connect_point(scene, surface.position, lens);
   active &= camera.valid;
   if (scene.integrator.hide_emitters && scene.any_area_light) active &= !is_emitter(scene, hit.primitive, active);
@@ -72,39 +72,49 @@ NORRSKEN_INLINE void connect_to_camera(const SceneView& scene, const Hit& hit, c
   const Vec3f origin = spawn_origin(surface.position, surface.normal, surface.offset, side);
   const Vec3f to_camera = camera.target - origin;
   const Float distance = sqrt(dot(to_camera, to_camera));
-  const Vec3f direction = to_camera * (Float(1.0f) / distance);
+  const Vec3f direction = to_camera * (1.0f / distance);
   const Vec3f wi = surface.frame.to_local(direction);
   const Vec3f wo_world = -hit.ray.direction;
   const Float factor =
       camera.density * decompression<Model>(bsdf, wi) * flux_correction(surface, wo_world, wo_local, direction, wi);
-  const Vec3f scattered = hit.ray.throughput * Model::evaluate(bsdf, wo_local, wi);
+  const Color scattered = hit.ray.throughput * Model::evaluate(bsdf, wo_local, wi);
   // Where nothing is scattered, a cosine may be 0 and the factor infinite.
-  active &= max_component(scattered) != Float(0.0f);
-  if (any(active))
-    push(connections, Connection{{origin, direction, distance, scattered * factor, hit.ray.slot}, camera.film}, active);
+  active &= max_component(scattered) != 0.0f;
+  if (none(active)) return;
+  push(scene, connections,
+       Connection{.ray = {.origin = origin,
+                          .direction = direction,
+                          .t_max = distance,
+                          .contribution = scattered * factor,
+                          .slot = hit.ray.slot},
+                  .film = camera.film},
+       active);
 }
 
 template <class Model>
 NORRSKEN_INLINE void sample_next_particle(const SceneView& scene, const Sampler& sampler, const SampleKey& key,
                                           const ParticleSettings& settings, const Hit& hit, const SurfacePoint& surface,
                                           const typename Model::Parameters& bsdf, const Vec3f& wo_local,
-                                          Queue& next_rays, Mask active) {
+                                          Queue<stored::Ray>& next_rays, Mask active) {
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
   const BsdfSample sample = sample_bsdf<Model>(sampler, key, dimension, bsdf, wo_local);
   const Vec3f direction = surface.frame.to_world(sample.wi);
   const Float factor =
       sample.eta * sample.eta * flux_correction(surface, -hit.ray.direction, wo_local, direction, sample.wi);
-  Vec3f throughput = hit.ray.throughput * sample.weight * factor;
-  active &= sample.valid & (max_component(throughput) > Float(0.0f));
+  Color throughput = hit.ray.throughput * sample.weight * factor;
+  active &= sample.valid & (max_component(throughput) > 0.0f);
   if (settings.roulette) {
     // By what this bounce leaves of the flux: paths differ little in how much they began with, as lights are chosen by
     // power, and its unit is the scene's.
-    const Float survive = min(max_component(throughput) / max_component(hit.ray.throughput), Float(0.95f));
+    const Float survive = min(max_component(throughput) / max_component(hit.ray.throughput), 0.95f);
     active &= sampler.sample_1d(key, dimension + hit_dimension::kRoulette) < survive;
-    throughput = throughput * (Float(1.0f) / survive);
+    throughput = throughput * (1.0f / survive);
   }
   const Vec3f origin = spawn_origin(surface.position, surface.normal, surface.offset, dot(direction, surface.normal));
-  if (any(active)) push(scene, next_rays, Ray{origin, direction, throughput, Float(0.0f), hit.ray.slot}, active);
+  if (none(active)) return;
+  push(scene, next_rays,
+       Ray{.origin = origin, .direction = direction, .throughput = throughput, .pdf_sa = 0.0f, .slot = hit.ray.slot},
+       active);
 }
 
 NORRSKEN_INLINE Vec2f lens_sample(const SceneView& scene, const Sampler& sampler, const SampleKey& key,
@@ -114,17 +124,17 @@ NORRSKEN_INLINE Vec2f lens_sample(const SceneView& scene, const Sampler& sampler
 #define NORRSKEN_CAMERA(kind, Model) used = used || (camera == CameraKind::kind && Model::kUsesLens);
 #include "lists/camera.def"
 #undef NORRSKEN_CAMERA
-  if (!used) return {Float(0.5f), Float(0.5f)};
+  if (!used) return {0.5f, 0.5f};
   return sampler.sample_2d(key, first_dimension_of_hit(settings.hit_number) + hit_dimension::kLens);
 }
 
 template <class Model>
-inline void shade_particles(const SceneView& scene, const ParticleSettings& settings, const Queue& hits,
-                            const Queue& slots, Queue& connections, Queue& next_rays) {
+inline void shade_particles(const SceneView& scene, const ParticleSettings& settings, const Queue<stored::Hit>& hits,
+                            const Slots& slots, Queue<stored::Connection>& connections, Queue<stored::Ray>& next_rays) {
   const Sampler sampler{scene.sampler.kind};
   for (std::uint32_t i = 0; i < hits.count; i += kLanes) {
     const Mask active = first_lanes(hits.count - i);
-    Hit hit = load_hit(scene, hits, i);
+    Hit hit = load<Hit>(scene, hits, i);
     SurfacePoint surface = make_surface_point(scene, hit, active);
     const Perturbation map = perturb_frame(scene, hit, surface, active);
     const auto bsdf = Model::load(parameter_reader(scene, hit, surface, active));

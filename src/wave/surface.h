@@ -32,37 +32,28 @@ NORRSKEN_INLINE SurfacePoint copied(const SurfacePoint& s) {
           copied(s.dp_dv)};
 }
 
-NORRSKEN_INLINE UInt record_index(UInt primitive) { return primitive * UInt(sizeof(SurfaceRecord) / sizeof(float)); }
-
-NORRSKEN_INLINE const float* surface_floats(const SceneView& scene) {
-  return reinterpret_cast<const float*>(scene.surfaces);
-}
-
 /// a < n, for numbers below 2^31.
-NORRSKEN_INLINE Mask below(UInt a, std::uint32_t n) { return shift_right<31>(a - UInt(n)) != UInt(0u); }
-
-NORRSKEN_INLINE UInt shape_index(UInt shape) { return shape * UInt(sizeof(ShapeRecord) / sizeof(float)); }
+NORRSKEN_INLINE Mask below(UInt a, std::uint32_t n) { return shift_right<31>(a - UInt(n)) != 0u; }
 
 /// Where the primitives of a primitive's shape begin among those that are lights, or kNone.
 NORRSKEN_INLINE UInt lights_of_shape(const SceneView& scene, UInt shape, Mask active) {
-  return gather_uint(reinterpret_cast<const float*>(scene.shapes) + 7, shape_index(shape), active);
+  return gather(scene.shapes, &ShapeRecord::lights, shape, active);
 }
 
 NORRSKEN_INLINE UInt shape_of(const SceneView& scene, UInt primitive, Mask active) {
-  return gather_uint(surface_floats(scene) + 6, record_index(primitive), active);
+  return gather(scene.surfaces, &SurfaceRecord::shape, primitive, active);
 }
 
 /// Whether the primitive is part of a light, on whichever side.
 NORRSKEN_INLINE Mask is_emitter(const SceneView& scene, UInt primitive, Mask active) {
-  return lights_of_shape(scene, shape_of(scene, primitive, active), active) != UInt(kNone);
+  return lights_of_shape(scene, shape_of(scene, primitive, active), active) != kNone;
 }
 
 /// The light that a primitive is part of, for lanes with one.
 NORRSKEN_INLINE UInt light_of(const SceneView& scene, UInt primitive, Mask active) {
   const UInt shape = shape_of(scene, primitive, active);
-  const UInt first = gather_uint(reinterpret_cast<const float*>(scene.shapes), shape_index(shape), active);
-  return gather_uint(reinterpret_cast<const float*>(scene.primitive_lights),
-                     lights_of_shape(scene, shape, active) + (primitive - first), active);
+  const UInt first = gather(scene.shapes, &ShapeRecord::first_primitive, shape, active);
+  return gather(scene.primitive_lights, lights_of_shape(scene, shape, active) + (primitive - first), active);
 }
 
 /// A point of a triangle: its corners, and its barycentric coordinates recomputed from the position.
@@ -72,30 +63,29 @@ struct TrianglePoint {
   Vec2f barycentric;  ///< weights of the second and third corner
 
   NORRSKEN_INLINE Vec3f interpolate(const Vec3f v[3]) const {
-    return fma(v[1], barycentric.x, fma(v[2], barycentric.y, v[0] * (Float(1.0f) - barycentric.x - barycentric.y)));
+    return fma(v[1], barycentric.x, fma(v[2], barycentric.y, v[0] * (1.0f - barycentric.x - barycentric.y)));
   }
 };
 
 inline TrianglePoint make_triangle_point(const SceneView& scene, UInt primitive, Vec3f p, Mask active) {
-  const auto* vertices = reinterpret_cast<const float*>(scene.triangle_vertices);
-  const UInt first = primitive * UInt(3u);
+  const UInt first = primitive * 3u;
   TrianglePoint t;
   Vec3f corners[3];
   for (int k = 0; k < 3; ++k) {
-    t.vertices[k] = gather_uint(vertices + k, first, active);
-    corners[k] = gather3(scene.positions, t.vertices[k] * UInt(3u), active);
+    t.vertices[k] = gather(scene.triangle_vertices + k, first, active);
+    corners[k] = gather3(scene.positions, t.vertices[k] * 3u, active);
   }
   t.e1 = corners[1] - corners[0], t.e2 = corners[2] - corners[0];
   const Vec3f q = p - corners[0];
   const Float a11 = dot(t.e1, t.e1), a12 = dot(t.e1, t.e2), a22 = dot(t.e2, t.e2), b1 = dot(q, t.e1), b2 = dot(q, t.e2);
-  const Float inv = Float(1.0f) / fms(a11, a22, a12 * a12);
+  const Float inv = 1.0f / fms(a11, a22, a12 * a12);
   t.barycentric = {fms(a22, b1, a12 * b2) * inv, fms(a11, b2, a12 * b1) * inv};
   return t;
 }
 
 inline Vec3f smooth_normal(const SceneView& scene, TrianglePoint t, Mask active) {
   Vec3f normals[3];
-  for (int k = 0; k < 3; ++k) normals[k] = gather3(scene.normals, t.vertices[k] * UInt(3u), active);
+  for (int k = 0; k < 3; ++k) normals[k] = gather3(scene.normals, t.vertices[k] * 3u, active);
   return normalize(t.interpolate(normals));
 }
 
@@ -127,11 +117,10 @@ inline Parametrization parametrize_triangle(const SceneView& scene, TrianglePoin
   Vec2f uv = t.barycentric;
   Vec3f dp_du = t.e1, dp_dv = t.e2;
   if (scene.texcoords != nullptr) {
-    const auto* shapes = reinterpret_cast<const float*>(scene.shapes);
-    const Mask mapped = active & (gather_uint(shapes + 4, shape_index(shape), active) != UInt(0u));
+    const Mask mapped = active & (gather(scene.shapes, &ShapeRecord::has_texcoords, shape, active) != 0u);
     Vec2f c[3];
     for (int k = 0; k < 3; ++k) {
-      const UInt at = t.vertices[k] * UInt(2u);
+      const UInt at = t.vertices[k] * 2u;
       c[k] = {gather(scene.texcoords, at, mapped), gather(scene.texcoords + 1, at, mapped)};
     }
     const Vec2f d1{c[1].x - c[0].x, c[1].y - c[0].y}, d2{c[2].x - c[0].x, c[2].y - c[0].y};
@@ -141,8 +130,8 @@ inline Parametrization parametrize_triangle(const SceneView& scene, TrianglePoin
                 uv);
     // p = p0 + e1 b1 + e2 b2 and uv = c0 + d1 b1 + d2 b2, solved for the derivatives of p.
     const Float determinant = fms(d1.x, d2.y, d1.y * d2.x);
-    const Mask regular = mapped & (determinant != Float(0.0f));
-    const Float inv = Float(1.0f) / determinant;
+    const Mask regular = mapped & (determinant != 0.0f);
+    const Float inv = 1.0f / determinant;
     const Frame any_frame = make_frame(normal);
     dp_du = select(mapped, select(regular, fma(t.e1, d2.y, t.e2 * -d1.y) * inv, any_frame.s), dp_du);
     dp_dv = select(mapped, select(regular, fma(t.e2, d1.x, t.e1 * -d2.x) * inv, any_frame.t), dp_dv);
@@ -156,39 +145,36 @@ inline Parametrization parametrize_sphere(const SceneView& scene, Float radius, 
   const Vec3f local = rotation.local(normal);
   // Derivatives of (cos 2 pi u sin pi v, sin 2 pi u sin pi v, cos pi v).
   const Float sin_theta = sqrt(fma(local.x, local.x, local.y * local.y));
-  const Mask pole = !(sin_theta > Float(0.0f));
-  const Float inv = Float(1.0f) / sin_theta;
-  const Vec2f phi = select(pole, Vec2f{Float(1.0f), Float(0.0f)}, Vec2f{local.x * inv, local.y * inv});
-  const Float two_pi_r = radius * Float(2.0f * kPi), pi_r = radius * Float(kPi);
-  return {sphere_uv(local), rotation.world({-local.y, local.x, Float(0.0f)}) * two_pi_r,
+  const Mask pole = !(sin_theta > 0.0f);
+  const Float inv = 1.0f / sin_theta;
+  const Vec2f phi = select(pole, Vec2f{1.0f, 0.0f}, Vec2f{local.x * inv, local.y * inv});
+  const Float two_pi_r = radius * Float(2.0f * kPi), pi_r = radius * kPi;
+  return {sphere_uv(local), rotation.world({-local.y, local.x, 0.0f}) * two_pi_r,
           rotation.world({local.z * phi.x, local.z * phi.y, -sin_theta}) * pi_r};
 }
 
 /// -1 where the sphere's normal points to its centre, otherwise 1.
-NORRSKEN_INLINE Float direction_of_sphere_normal(const SceneView& scene, UInt record, Mask active) {
-  const UInt shape = shape_index(gather_uint(surface_floats(scene) + 6, record, active));
-  const UInt flipped = gather_uint(reinterpret_cast<const float*>(scene.shapes) + 3, shape, active);
-  return select(flipped != UInt(0u), Float(-1.0f), Float(1.0f));
+NORRSKEN_INLINE Float direction_of_sphere_normal(const SceneView& scene, UInt primitive, Mask active) {
+  const UInt shape = shape_of(scene, primitive, active);
+  const UInt flipped = gather(scene.shapes, &ShapeRecord::flip_normals, shape, active);
+  return select(flipped != 0u, Float(-1.0f), Float(1.0f));
 }
 
 /// -1 where a ray of this direction comes from the back of a surface with this shading normal, otherwise 1. The shading
 /// normal tells, not the geometric one: BSDFs are made of it, and would be black where the viewer is below it.
 NORRSKEN_INLINE Float side_told_by(const Vec3f& shading, const Vec3f& direction) {
-  return select(dot(shading, direction) > Float(0.0f), Float(-1.0f), Float(1.0f));
+  return select(dot(shading, direction) > 0.0f, Float(-1.0f), Float(1.0f));
 }
 
 /// `Scene`: SceneView or PlainScene.
 template <class Scene>
 NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& hit, Mask active) {
-  const float* records = surface_floats(scene);
-  const UInt index = record_index(hit.primitive);
-  const Vec3f geometry = gather3(records, index, active);
-  const Float fourth = gather(records + 3, index, active);
+  const auto [geometry, fourth] = gather(scene.surfaces, &SurfaceRecord::geometry, hit.primitive, active);
   // Everything is computed where the surface's tables are told: in the world, or in the space of an instance.
   Vec3f along = fma(hit.ray.direction, hit.t, hit.ray.origin);
-  Mask instanced = Float(1.0f) < Float(0.0f);
+  Mask instanced = Mask::none();
   if (scene.instance_count > 0) {
-    instanced = active & (hit.instance != UInt(kNone));
+    instanced = active & (hit.instance != kNone);
     if (any(instanced))
       along = select(
           instanced,
@@ -202,8 +188,8 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& h
   s.position = fma(geometry, fourth - dot(geometry, along), along);
   Float scale = largest(s.position);
   const Mask triangle = active & below(hit.primitive, scene.triangle_count);
-  const Mask analytic = active & (scene.first_analytic == kNone ? Float(1.0f) < Float(0.0f)
-                                                                : !below(hit.primitive, scene.first_analytic));
+  Mask analytic = Mask::none();
+  if (scene.first_analytic != kNone) analytic = active & !below(hit.primitive, scene.first_analytic);
   const Mask sphere = active & !triangle & !analytic;
   if (scene.accel.rounding_extents != nullptr) {
     scale = max(scale, zero_unless(triangle, gather(scene.accel.rounding_extents, hit.primitive, triangle)));
@@ -215,18 +201,17 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& h
       scale = select(sphere, largest(s.position) + fourth, scale);
       // Which way it points matters to maps and layers alone: else a surface looks the same from both sides.
       Float outwards(1.0f);
-      if (scene.needs_uv) outwards = direction_of_sphere_normal(scene, index, sphere);
+      if (scene.needs_uv) outwards = direction_of_sphere_normal(scene, hit.primitive, sphere);
       s.normal = select(sphere, n * outwards, s.normal);
     }
   }
 
   Vec3f shading = s.normal;
   if (scene.any_smooth || scene.needs_uv) {
-    const auto* shapes = reinterpret_cast<const float*>(scene.shapes);
-    s.texture.shape = gather_uint(records + 6, index, active);
+    s.texture.shape = shape_of(scene, hit.primitive, active);
     s.texture.primitive = hit.primitive;
-    const UInt smooth = gather_uint(shapes + 2, shape_index(s.texture.shape), active);
-    const Mask interpolate = triangle & (smooth != UInt(0u));
+    const UInt smooth = gather(scene.shapes, &ShapeRecord::smooth, s.texture.shape, active);
+    const Mask interpolate = triangle & (smooth != 0u);
     const Mask look = scene.needs_uv ? triangle : interpolate;
     if (any(look)) {
       const TrianglePoint t = make_triangle_point(scene, hit.primitive, copied(s.position), look);
@@ -252,7 +237,7 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& h
         instanced);
     set_place(s, shading, scale, p, instanced);
   }
-  s.offset = scale * Float(kOffsetUlps);
+  s.offset = scale * kOffsetUlps;
 
   s.side = side_told_by(shading, hit.ray.direction);
   if (scene.needs_uv) {
@@ -270,7 +255,7 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& h
 template <class Scene>
 NORRSKEN_INLINE ParameterReader parameter_reader(const Scene& scene, const Hit& hit, const SurfacePoint& surface,
                                                  Mask active) {
-  return {scene, hit.material & UInt(kMaterialOffsetMask), surface.texture, active, scene.texture_kinds != 0};
+  return {scene, hit.material & kMaterialOffsetMask, surface.texture, active, scene.texture_kinds != 0};
 }
 
 /// Where a ray that leaves towards `side` of the surface begins.

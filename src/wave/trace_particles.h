@@ -14,6 +14,7 @@
 #pragma once
 
 #include "wave/generate_light_rays.h"
+#include "wave/intersect_connections.h"
 #include "wave/schedule.h"
 #include "wave/shade_particles.h"
 
@@ -28,7 +29,7 @@ inline void show_emitters(const SceneView& scene, const WaveJob& job, WaveMemory
 }
 
 template <class Model>
-inline void shade_particles_of_kind(const SceneView& scene, const ParticleSettings& settings, const Queue& hits,
+inline void shade_particles_of_kind(const SceneView& scene, const ParticleSettings& settings, const Hits& hits,
                                     WaveMemory& memory, WaveCounts& counts) {
   memory.connections.count = 0;
   shade_particles<Model>(scene, settings, hits, memory.slots, memory.connections, memory.next_rays);
@@ -50,23 +51,22 @@ inline std::uint32_t trace_particles(const SceneView& scene, const WaveJob& job,
   }
   // What is connected after h hits has depth h + 1.
   for (; memory.rays.count > 0 && hit_number < max_depth; ++hit_number) {
-    if (memory.splats.capacity - memory.splats.count < memory.rays.count) return hit_number;
+    if (memory.splats.capacity() - memory.splats.count < memory.rays.count) return hit_number;
     counts.closest_rays += memory.rays.count;
-    clear_hits(memory);
+    clear(memory.found);
     memory.next_rays.count = 0;
-    constexpr std::uint32_t kNotFromCamera = 1;
-    intersect_closest(scene, hit_number + kNotFromCamera, kAllScattering, memory.rays, memory);
-    resolve_materials(scene, hit_number, kByChance, kAllScattering, memory);
-    const ParticleSettings settings{hit_number, hit_number + 1 < max_depth,
-                                    hit_number >= static_cast<std::uint32_t>(integrator.rr_depth)};
-#define NORRSKEN_BSDF(kind, Model)                                                                                 \
-  shade_particles_of_kind<Model>(scene, settings, memory.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory, \
-                                 counts);
+    intersect_closest(scene, false, kAllScattering, memory.rays, memory.slots, memory.found);
+    resolve_materials(scene, hit_number, kByChance, kAllScattering, memory.found.unresolved_hits, memory.slots,
+                      memory.found.hits);
+    const ParticleSettings settings{.hit_number = hit_number,
+                                    .next_rays = hit_number + 1 < max_depth,
+                                    .roulette = hit_number >= static_cast<std::uint32_t>(integrator.rr_depth)};
+#define NORRSKEN_BSDF(kind, Model)                                                                               \
+  shade_particles_of_kind<Model>(scene, settings, memory.found.hits[static_cast<std::uint32_t>(BsdfKind::kind)], \
+                                 memory, counts);
 #include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
-    const Queue finished = memory.rays;
-    memory.rays = memory.next_rays;
-    memory.next_rays = finished;
+    std::swap(memory.rays, memory.next_rays);
   }
   return 0;
 }

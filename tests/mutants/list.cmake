@@ -2,7 +2,7 @@
 
 # --- integrals: weights, densities, measures ---------------------------------------------------------------------------
 norrsken_mutant(no_mis_weight wave/mis.h
-  "fma(ratio, ratio, Float(1.0f))" "Float(1.0f)"
+  "fma(ratio, ratio, 1.0f)" "1.0f"
   IN rendering BY "*Plane*rectangle")
 norrsken_mutant(bsdf_samples_that_do_not_count wave/shade_surface.h
   "power_heuristic(Float(static_cast<float>(n)), light_pdf, bsdf_samples, Model::pdf_sa(bsdf, wo, wi))"
@@ -15,19 +15,19 @@ norrsken_mutant(no_light_choice_probability_of_found light/sample_lights.h
   "pdf * light_prob(scene, light, active)" "pdf"
   IN rendering BY "*Plane*all_path")
 norrsken_mutant(no_cosine_at_the_surface bsdf/diffuse.h
-  "cos_i * Float(kInvPi)" "select(cos_i > Float(0.0f), Float(kInvPi), Float(0.0f))"
+  "cos_i * kInvPi" "zero_unless(cos_i > 0.0f, kInvPi)"
   IN rendering BY "*Plane*point")
 norrsken_mutant(no_cosine_at_the_light light/area_point.h
   "distance2 * sqrt(distance2) / (facing * area)" "distance2 / area"
   IN rendering BY "*Plane*rectangle")
 norrsken_mutant(no_area_in_the_density light/flat_area.h
-  "Float(1.0f) / light.area" "Float(1.0f)"
+  "1.0f / light.area" "1.0f"
   IN rendering BY "*Plane*rectangle")
 norrsken_mutant(no_distance_in_the_measure math/warp.h
   "pdf_area * distance2 / cos_at_surface" "pdf_area / cos_at_surface"
   IN rendering BY "*Plane*rectangle")
 norrsken_mutant(no_roulette_weight wave/shade_surface.h
-  "throughput * (Float(1.0f) / survive)" "throughput"
+  "throughput * (1.0f / survive)" "throughput"
   IN rendering BY "RussianRoulette*")
 norrsken_mutant(roulette_without_eta2 wave/shade_surface.h
   "max_component(throughput) * eta2" "max_component(throughput)"
@@ -43,7 +43,7 @@ norrsken_mutant(no_decompression_of_flux wave/shade_particles.h
   "flux_correction(surface, -hit.ray.direction, wo_local, direction, sample.wi)"
   IN rendering BY "*LightPaths*glass")
 norrsken_mutant(no_light_choice_probability_of_paths light/emit_lights.h
-  "Float(1.0f) / light_prob(scene, light, active)" "Float(1.0f)"
+  "1.0f / light_prob(scene, light, active)" "1.0f"
   IN rendering BY "LightPathsOnPlane*")
 norrsken_mutant(cosine_of_importance camera/connect.h
   "sqrt(du2 * dv2) * depth * depth * depth" "sqrt(du2 * dv2) * depth * depth * distance"
@@ -56,7 +56,7 @@ norrsken_mutant(cone_of_the_wrong_density math/warp.h
   IN rendering BY "*Plane*sphere")
 
 norrsken_mutant(no_jacobian_of_reflection bsdf/roughconductor.h
-  "p.facets.density(m) * p.facets.exact_masking(wo) / (Float(4.0f) * wo.z)"
+  "p.facets.density(m) * p.facets.exact_masking(wo) / (4.0f * wo.z)"
   "p.facets.density(m) * p.facets.exact_masking(wo) / wo.z"
   IN bsdf_model_test BY "*EveryBsdf.WeightIsValueOverDensity/roughconductor*"
   SAYING "The difference between weight.k. [*] pdf and value.k. is")
@@ -69,11 +69,11 @@ norrsken_mutant(masking_of_one_direction bsdf/roughplastic.h
   IN bsdf_model_test BY "*EveryBsdf.Reciprocity/roughplastic*"
   SAYING "The difference between a and b is")
 norrsken_mutant(facets_of_one_roughness bsdf/microfacet.h
-  "Float(kPi) * alpha_u * alpha_v * shape * shape" "Float(kPi) * alpha_u * alpha_u * shape * shape"
+  "kPi * alpha_u * alpha_v * shape * shape" "kPi * alpha_u * alpha_u * shape * shape"
   IN bsdf_model_test BY "*EveryBsdf.DirectionsFollowTheDensity/roughconductor*"
   SAYING "against the density.s integral")
 norrsken_mutant(environment_without_the_sine light/envmap.h
-  "mix(patch.weight, at) * Float(map.density_scale) / max(sin_theta, Float(0x1p-40f))"
+  "mix(patch.weight, at) * Float(map.density_scale) / max(sin_theta, 0x1p-40f)"
   "mix(patch.weight, at) * Float(map.density_scale)"
   IN light_test BY "*EveryLight.DirectionsFollowTheDensity/envmap*"
   SAYING "against the density.s integral")
@@ -98,7 +98,7 @@ norrsken_mutant(no_compression_of_radiance bsdf/dielectric.h
   "p.specular_transmittance * (inv_eta * inv_eta)" "p.specular_transmittance"
   IN rendering BY "*Refraction*" SAYING "The difference between got.k. and wanted.k. is")
 norrsken_mutant(fresnel_of_one_polarisation bsdf/fresnel.h
-  "Float(0.5f) * fma(r_s, r_s, r_p * r_p)" "r_s * r_s"
+  "0.5f * fma(r_s, r_s, r_p * r_p)" "r_s * r_s"
   IN rendering BY "*Refraction*" SAYING "The difference between got.k. and wanted.k. is")
 norrsken_mutant(no_weight_of_the_chosen_lobe bsdf/plastic.h
   "reflected / specular_prob" "reflected"
@@ -116,7 +116,7 @@ norrsken_mutant(refracted_by_the_inverse_eta bsdf/fresnel.h
 norrsken_mutant(k_in_the_place_of_eta bsdf/roughconductor.h
   "p.color(4)" "p.color(8)"
   IN glass_and_metal_test BY "RoughConductor.HasTheReflectance*"
-  SAYING "The difference between double.s.weight.x.v. and normal_incidence")
+  SAYING "The difference between double.s.weight.r.v. and normal_incidence")
 
 # --- random numbers ----------------------------------------------------------------------------------------------------
 norrsken_mutant(off_by_one_dimension wave/shade_surface.h
@@ -133,11 +133,11 @@ norrsken_mutant(biased_disk math/warp.h
   "ratio * Float(kPi / 4)" "ratio * Float(kPi / 5)"
   IN sampling_test BY "Warp.DiskPreservesArea" SAYING "warp_to_disk: chi-square")
 norrsken_mutant(biased_triangle math/warp.h
-  "select(upper, u.x, u.y) * Float(0.5f)" "select(upper, u.x, u.y) * Float(0.4f)"
+  "select(upper, u.x, u.y) * 0.5f" "select(upper, u.x, u.y) * 0.4f"
   IN sampling_test BY "Warp.TriangleIsUniform" SAYING "warp_to_triangle: chi-square")
 norrsken_mutant(one_sobol_dimension_twice sampler/sobol.h
-  "scramble_reversed(second_dimension_reversed(shuffled), hash(seed + UInt(2u)))"
-  "scramble_reversed(shuffled, hash(seed + UInt(2u)))"
+  "scramble_reversed(second_dimension_reversed(shuffled), hash(seed + 2u))"
+  "scramble_reversed(shuffled, hash(seed + 2u))"
   IN sampling_test BY "Sobol.EveryReplicateIsANet" SAYING "Expected equality of these values:\n *cells.size")
 
 # --- geometry ----------------------------------------------------------------------------------------------------------
@@ -148,10 +148,10 @@ norrsken_mutant(sides_told_by_the_geometric_normal wave/surface.h
   "side_told_by(shading, hit.ray.direction)" "side_told_by(s.normal, hit.ray.direction)"
   IN rendering BY "CoarseBall.OfGlass*" SAYING "Expected: .mean_of.picture.. >= .0.999.")
 norrsken_mutant(rays_begin_on_the_surface wave/surface.h
-  "scale * Float(kOffsetUlps)" "Float(0.0f)"
+  "scale * kOffsetUlps" "0.0f"
   IN rendering BY "*UniformRoom*")
 norrsken_mutant(shadows_from_behind_the_light accel/planes.h
-  "(c.t > Float(0.0f)) & (c.t < t_max)" "c.t > Float(0.0f)"
+  "(c.t > 0.0f) & (c.t < t_max)" "c.t > 0.0f"
   IN rendering BY "OracleBox.Lamp*")
 norrsken_mutant(no_shadows wave/intersect_shadow.h
   "active & !occluded.at(i, ray.origin, ray.direction, ray.t_max, active)" "active"
@@ -174,7 +174,7 @@ norrsken_mutant(choice_not_rescaled bsdf/resolved.h
   "select(take, number_ / prob, (number_ - prob) / rest)" "number_"
   IN rendering BY "LookedThrough.*Choices*" SAYING "The difference between got")
 norrsken_mutant(infinite_cosine_ratios wave/shade_particles.h
-  "max_component(scattered) != Float(0.0f)" "max_component(scattered * factor) != Float(0.0f)"
+  "max_component(scattered) != 0.0f" "max_component(scattered * factor) != 0.0f"
   IN rendering BY "*DroppedSamples.AreNone*" SAYING "Expected equality of these values:\n *render.sideways")
 norrsken_mutant(normal_map_without_a_normal wave/perturbed_frame.h
   "select(lanes, perturbed.frame.n, surface.frame.n)" "surface.frame.n"
@@ -183,7 +183,7 @@ norrsken_mutant(twosided_that_mirrors_no_map wave/perturbed_frame.h
   "select(mirrored, Float(-1.0f), Float(1.0f))" "Float(1.0f)"
   IN rendering BY "LookedThrough.WhatStandsAround*" SAYING "The difference between got")
 norrsken_mutant(normal_map_without_shadowing wave/perturbed_frame.h
-  "zero_unless(cos_theta * cos_inside > Float(0.0f), shadowing)" "Float(1.0f)"
+  "zero_unless(cos_theta * cos_inside > 0.0f, shadowing)" "1.0f"
   IN rendering BY "LookedThrough.NormalMaps*" SAYING "The difference between got")
 
 # --- the film ----------------------------------------------------------------------------------------------------------

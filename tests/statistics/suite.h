@@ -159,6 +159,7 @@ inline constexpr Family kSuite[] = {
     {"Connect.RaysHaveTheDensityOfConnections", 2 * kCameras* kPerDensity},
     {"Cameras.ThinLensIsSharpInThePlaneOfFocus", 2},
     {"ManyLightsInAHall.HaveTheSameMeanAndLessNoiseByPlace", 1, 2},
+    {"ShadeSurface.RouletteKeepsTheMeanThroughput", 1},
     {"Film.VarianceIsUnbiased", 2 * 5 * 2},
     {"CompareZTest.HonestVariancesPass", 4},
     {"CompareZTest.ASmallBiasShowsInTheMeans", 3},

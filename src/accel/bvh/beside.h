@@ -46,7 +46,7 @@ NORRSKEN_INLINE void closest_beside(const AccelView& accel, const Vec3f& o, cons
 
 /// Whether any of them is nearer than `t_max`.
 NORRSKEN_INLINE Mask occluded_beside(const AccelView& accel, const Vec3f& o, const Vec3f& d, Float t_max) {
-  Mask occluded = Float(1.0f) < Float(0.0f);
+  Mask occluded = Mask::none();
   for (std::uint32_t k = 0; k < accel.sphere_count; ++k) {
     occluded |= occluded_by_sphere(accel.spheres[k], o, d, t_max);
   }

@@ -82,7 +82,7 @@ class RayBlock {
   std::vector<TestHit> closest(const SceneView& view, const KernelEntry& kernels) const {
     Answers<float> t(count_);
     Answers<std::uint32_t> primitive_side(count_);
-    kernels.closest_rays(view, false, arrays_, t.data(), primitive_side.data());
+    probe_of(kernels).closest_rays(view, false, arrays_, t.data(), primitive_side.data());
     std::vector<TestHit> hits;
     for (std::uint32_t i = 0; i < count_; ++i) hits.push_back({t[i], primitive_side[i]});
     return hits;

@@ -18,11 +18,15 @@ struct RayFields {
 
   RayFields(const float* const o[3], const float* const d[3], std::uint32_t first = 0)
       : origin{o[0] + first, o[1] + first, o[2] + first}, direction{d[0] + first, d[1] + first, d[2] + first} {}
-  explicit RayFields(const Queue& q)
-      : origin{q.field(kRayOriginX), q.field(kRayOriginY), q.field(kRayOriginZ)},
-        direction{q.field(kRayDirectionX), q.field(kRayDirectionY), q.field(kRayDirectionZ)} {
-    static_assert(int{kRayOriginX} == int{kShadowOriginX} && int{kRayDirectionX} == int{kShadowDirectionX});
-  }
+  /// Components `stride` apart.
+  RayFields(const float* o, const float* d, std::size_t stride)
+      : origin{o, o + stride, o + 2 * stride}, direction{d, d + stride, d + 2 * stride} {}
+  template <class Record>
+  explicit RayFields(const Queue<Record>& q)
+      : RayFields(q.field(&Record::origin), q.field(&Record::direction), q.stride()) {}
+  explicit RayFields(const Queue<stored::Connection>& q)
+      : RayFields(q.field(&stored::Connection::ray, &stored::ShadowRay::origin),
+                  q.field(&stored::Connection::ray, &stored::ShadowRay::direction), q.stride()) {}
   RayFields from(std::uint32_t first) const { return {origin, direction, first}; }
 
   NORRSKEN_INLINE Vec3f load_origin(std::uint32_t i) const {

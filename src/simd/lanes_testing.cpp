@@ -1,4 +1,4 @@
-#include "simd/lanes_check.h"
+#include "simd/lanes_testing.h"
 
 #include "simd/lanes.h"
 

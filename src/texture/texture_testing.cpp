@@ -1,4 +1,4 @@
-#include "texture/texture_check.h"
+#include "texture/texture_testing.h"
 
 #include "texture/parameter_reader.h"
 
@@ -13,8 +13,8 @@ void evaluate_all(const SceneView& scene, TextureWord word, const float* u, cons
     const Vec2f uv{load(u + i), load(v + i)};
     const TexturePoint point{uv, load_uint(reinterpret_cast<const float*>(primitive) + i),
                              load_uint(reinterpret_cast<const float*>(shape) + i), uv};
-    const Vec3f color = evaluate_texture(scene, UInt(word), point, active);
-    store(out[0] + i, color.x), store(out[1] + i, color.y), store(out[2] + i, color.z);
+    const Color color = evaluate_texture(scene, UInt(word), point, active);
+    store(out[0] + i, color.r), store(out[1] + i, color.g), store(out[2] + i, color.b);
     if (texture_kind(word) != TextureKind::bitmap) continue;
     const Vec2f gradient = Bitmap::gradient(scene, UInt(word & kTextureOffsetMask), point, active);
     store(out[3] + i, gradient.x), store(out[4] + i, gradient.y);

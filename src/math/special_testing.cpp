@@ -1,4 +1,4 @@
-#include "math/special_check.h"
+#include "math/special_testing.h"
 
 #include "math/special.h"
 
