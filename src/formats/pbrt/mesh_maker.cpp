@@ -63,11 +63,17 @@ void MeshMaker::grid(int columns, int rows, const std::function<Point(const glm:
       vertex(point.position, &point.normal, &uv);
     }
   }
+  // Where a side of the square is one point there is a triangle less.
+  const auto add = [this](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (position(mesh_, a) != position(mesh_, b) && position(mesh_, b) != position(mesh_, c) &&
+        position(mesh_, c) != position(mesh_, a))
+      triangle(a, b, c);
+  };
   for (std::uint32_t y = 0; y < high; ++y) {
     for (std::uint32_t x = 0; x < wide; ++x) {
       const std::uint32_t a = first + y * (wide + 1) + x, b = a + wide + 1;
-      triangle(a, a + 1, b + 1);
-      triangle(a, b + 1, b);
+      add(a, a + 1, b + 1);
+      add(a, b + 1, b);
     }
   }
 }
