@@ -1,4 +1,5 @@
 // LightSource "infinite": pbrt's images of equal areas become latitude and longitude.
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -26,8 +27,19 @@ double illuminance_of(const ImageFile& file) {
   return sum * 2 * kPi / (static_cast<double>(size) * size);
 }
 
+/// What is seen in a direction of the light's space.
+using LookUp = glm::dvec3 (*)(const ImageFile& file, const glm::dvec3& direction);
+
+/// The texel of an image in latitude and longitude with z up, which infinite lights of version 3 have.
+glm::dvec3 version3_texel(const ImageFile& file, const glm::dvec3& d) {
+  const int width = file.image.width, height = file.image.height;
+  const double turns = std::atan2(d.y, d.x) / (2 * kPi), down = std::acos(std::clamp(d.z, -1.0, 1.0)) / kPi;
+  return file.texel(std::clamp(static_cast<int>((turns - std::floor(turns)) * width), 0, width - 1),
+                    std::clamp(static_cast<int>(down * height), 0, height - 1));
+}
+
 /// The image as the emitter envmap wants it, with +y up in the world.
-Image to_latitude_longitude(const ImageFile& file, const glm::dmat4& to_world) {
+Image to_latitude_longitude(const ImageFile& file, LookUp look_up, const glm::dmat4& to_world) {
   const glm::dmat3 light_from_world = glm::inverse(glm::dmat3(to_world));
   Image image;
   image.height = std::max(file.image.height, 3), image.width = 2 * image.height;
@@ -44,7 +56,7 @@ Image to_latitude_longitude(const ImageFile& file, const glm::dmat4& to_world) {
         const double theta = std::clamp((y + inside.y - 0.5) / last_row, 0.0, 1.0) * kPi;
         const double phi = (x + inside.x) / image.width * 2 * kPi;
         const glm::dvec3 world(std::sin(phi) * std::sin(theta), std::cos(theta), -std::cos(phi) * std::sin(theta));
-        sum += equal_area_texel(file, glm::normalize(light_from_world * world));
+        sum += look_up(file, glm::normalize(light_from_world * world));
       }
       for (int c = 0; c < 3; ++c)
         image.channels[static_cast<std::size_t>(c)].values[pixel] = static_cast<float>(sum[c] / (kSamples * kSamples));
@@ -83,7 +95,10 @@ void add_infinite_light(Context& context, ImageFiles& images, Parameters& p, con
   double scale = p.number("scale", 1, 0) * context.imaging_ratio;
   const glm::dvec3 radiance = read_emission(context, p, "L", space);
   const double illuminance = p.number("illuminance", -1);
-  const Parameter* filename = p.find("string", "filename");
+  const Parameter* version3 = p.find("string", "mapname");
+  const Parameter* filename = version3 ? version3 : p.find("string", "filename");
+  if (version3)
+    p.note(version3, "'mapname' of light 'infinite', of pbrt's version 3, is an image in latitude and longitude");
   if (p.list("point3", "portal", 3))
     context.tell(p.find("point3", "portal")->place, "portals of infinite lights are not supported",
                  "the light from all directions");
@@ -94,19 +109,21 @@ void add_infinite_light(Context& context, ImageFiles& images, Parameters& p, con
     scene.add(std::move(node));
     return;
   }
-  if (p.has("L")) return p.error(filename, "light 'infinite' has 'filename' beside 'L'", "either");
+  if (p.has("L") && !version3) return p.error(filename, "light 'infinite' has 'filename' beside 'L'", "either");
   const auto file = p.has_values(*filename, 1) ? images.read(*filename) : nullptr;
   if (!file) return;
   const int width = file->image.width, height = file->image.height;
-  if (width != height)
+  if (width != height && !version3)
     return p.error(
         filename, fmt::format("the image of light 'infinite' has {} x {} pixels", width, height),
         "a square image of equal areas, as pbrt's 'imgtool makeequiarea' makes it of one in latitude and longitude");
-  if (illuminance > 0) scale *= illuminance / illuminance_of(*file);
+  if (illuminance > 0 && !version3) scale *= illuminance / illuminance_of(*file);
   Node node = make_node("emitter", "envmap", p.place());
-  Image image = to_latitude_longitude(*file, to_world);
+  Image image = to_latitude_longitude(*file, version3 ? version3_texel : equal_area_texel, to_world);
   context.memory.grow(sizeof(float) * 3 * image.channels[0].values.size());
   give(node, "image", std::make_shared<const Image>(std::move(image)), filename->place);
+  // Version 3 multiplies its image with "L".
+  if (version3) scale *= luminance_of(radiance);
   give(node, "scale", scale, p.place());
   scene.add(std::move(node));
 }

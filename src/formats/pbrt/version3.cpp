@@ -71,7 +71,6 @@ constexpr RenamedParameter kParameters[] = {
     {"Integrator", "", "pixelbounds", ""},
     {"LightSource", "", "samples", ""},
     {"LightSource", "", "nsamples", ""},
-    {"LightSource", "", "mapname", "filename"},
     {"AreaLightSource", "", "samples", ""},
     {"AreaLightSource", "", "nsamples", ""},
     {"Shape", "", "st", "uv"},
@@ -80,6 +79,35 @@ constexpr RenamedParameter kParameters[] = {
     {"Texture", "", "trilinear", ""},
     {"Texture", "", "gamma", ""},
 };
+
+/// What version 3 takes where nothing is given, and today's material something else.
+struct Default {
+  std::string_view type, parameter, today;  ///< the type that it had, and its names then and now
+  double value;
+};
+constexpr Default kDefaults[] = {
+    {"plastic", "roughness", "roughness", 0.1},     {"plastic", "Kd", "reflectance", 0.25},
+    {"substrate", "uroughness", "uroughness", 0.1}, {"substrate", "vroughness", "vroughness", 0.1},
+    {"uber", "roughness", "roughness", 0.1},        {"uber", "Kd", "reflectance", 0.25},
+    {"metal", "roughness", "roughness", 0.01},      {"mirror", "Kr", "reflectance", 0.9},
+    {"translucent", "Kd", "reflectance", 0.25},
+};
+
+void add_defaults(const Place& place, Object3& object, const std::string& old_type) {
+  if (object.directive != "Material") return;
+  for (const Default& rule : kDefaults) {
+    const bool is_given =
+        std::ranges::any_of(object.parameters, [&](const auto& p) { return p->name == rule.parameter; });
+    if (rule.type != old_type || is_given) continue;
+    auto parameter = std::make_shared<Parameter>();
+    const bool is_color = rule.today == "reflectance";
+    parameter->type = is_color ? "rgb" : "float";
+    parameter->name = rule.today;
+    parameter->numbers.assign(is_color ? 3 : 1, rule.value);
+    parameter->place = parameter->value = place;
+    object.parameters.push_back(std::move(parameter));
+  }
+}
 
 bool applies(const RenamedParameter& rule, const Object3& object, const std::string& old_type,
              const Parameter& parameter) {
@@ -121,6 +149,7 @@ void update(Context& context, const Place& place, Object3& object) {
     context.diagnostics.note(place.location(), fmt::format("{} '{}', of pbrt's version 3, is '{}'", object.directive,
                                                            old_type, type->today));
   }
+  add_defaults(place, object, old_type);
   const bool has_old = std::ranges::any_of(object.parameters, [&](const auto& p) {
     return std::ranges::any_of(kParameters,
                                [&](const RenamedParameter& r) { return applies(r, object, old_type, *p); });
