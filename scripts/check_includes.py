@@ -36,7 +36,7 @@ HOST_ROOMS = {
     "tables": ["base", "lists"],
     "scene": [PUBLIC, "base", "color"],
     "image": [PUBLIC, "base", "color"],
-    "formats": [PUBLIC, "base", "color", "scene"],
+    "formats": [PUBLIC, "base", "color", "scene", "image"],
     "compile": [PUBLIC, "base", "lists", "color", "tables", "image", "scene", "formats"],
     "accel": [PUBLIC, "shape"] + KERNEL_BASE,
     "isa": [PUBLIC, "accel", "wave"] + KERNEL_BASE,

@@ -217,7 +217,7 @@ def without_effect():
 
 def page():
     out = ["# Scene files: every plugin and its parameters", "",
-           "Norrsken reads the XML format of Mitsuba 3. This page is written by `scripts/make_scene_docs.py` from the header "
+           "Norrsken reads the XML format of Mitsuba 3, and [scenes in pbrt's language](pbrt.md). This page is written by `scripts/make_scene_docs.py` from the header "
            "blocks of the sources; change it there. Lengths are in scene units, angles in degrees, colours linear sRGB; "
            "\"color\" stands for `rgb`, `spectrum` or a grey `float`. A parameter that nobody asks for is an "
            "error, but for [those](#without-effect) that the format's base classes take. A number that may be a texture may "

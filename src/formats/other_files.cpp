@@ -260,7 +260,7 @@ std::optional<OtherFile> recognise_other_file(const std::string& path, std::stri
   if (text.starts_with("version https://git-lfs"))
     return is("the address of a file in Git LFS", "the file itself; 'git lfs pull' fetches it");
   if (has_extension(path, ".pbrt") || has_pbrt_line(text))
-    return is("a pbrt scene", "a scene of Mitsuba's XML; pbrt's files are not read");
+    return is("a pbrt scene", "a scene of Mitsuba's XML here; pbrt's are scenes of their own");
   if (has_line(text, {"newmtl"})) return is("a material library of an OBJ mesh", "a scene of Mitsuba's XML");
   if (has_line(text, {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "4OFF"}))
     return is("an OFF mesh", "a scene; save the mesh as PLY or OBJ for it");

@@ -1,11 +1,14 @@
 #include "formats/scene_formats.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 
 #include "base/text.h"
 #include "formats/mitsuba_xml.h"
+#include "formats/pbrt/read_pbrt.h"
 
 namespace norrsken {
 namespace {
@@ -23,10 +26,18 @@ std::optional<Description> read_xml(const std::string& path, const FileSystem& f
   return read_mitsuba_xml(path, files, arguments.parameters, diagnostics, arguments.preferred);
 }
 
+std::optional<Description> read_pbrt_scene(const std::string& path, const FileSystem& files,
+                                           const SceneArguments& arguments, Diagnostics& diagnostics) {
+  for (const auto& [name, value] : arguments.parameters)
+    diagnostics.error({}, fmt::format("-D{}: scenes of pbrt have no parameters", name));
+  return read_pbrt(path, files, diagnostics);
+}
+
 }  // namespace
 
 std::span<const SceneReader> scene_readers() {
-  static const std::vector<SceneReader> readers = {{"Mitsuba XML", {".xml"}, looks_like_xml, read_xml}};
+  static const std::vector<SceneReader> readers = {{"Mitsuba XML", {".xml"}, looks_like_xml, read_xml},
+                                                   {"pbrt", {".pbrt", ".pbrt.gz"}, looks_like_pbrt, read_pbrt_scene}};
   return readers;
 }
 
