@@ -17,7 +17,12 @@ struct Diffuse {
     Vec3f reflectance;
   };
 
-  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0)}; }
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::diffuse;
+    ColorSlot reflectance;
+  };
+
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.get(&Stored::reflectance)}; }
 
   static NORRSKEN_INLINE Vec3f evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     const Float cos_i = max(wi.z, Float(0.0f));

@@ -12,8 +12,12 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Parameters: the texture's word, the shape's index in `analytics`.
 struct AnalyticAreaLight {
+  struct Stored {
+    TextureWord texture;
+    std::uint32_t analytic;  ///< the shape's index in `analytics`
+  };
+
   struct Place {
     Affine world_from_local, local_from_world;
     UInt kinds;
@@ -21,7 +25,7 @@ struct AnalyticAreaLight {
   };
   static inline Place load(const SceneView& scene, Light light, Mask active) {
     constexpr std::uint32_t kFloats = sizeof(AnalyticRecord) / sizeof(float);
-    const UInt record = gather_uint(scene.parameters + 1, light.parameters, active) * UInt(kFloats);
+    const UInt record = gather_slot(scene.parameters, &Stored::analytic, light.parameters, active) * UInt(kFloats);
     const auto* words = reinterpret_cast<const float*>(scene.analytics) + sizeof(Placement) / sizeof(float);
     const Mask flipped = gather_uint(words + 1, record, active) != UInt(0u);
     return {gather_affine(scene.analytics->place.world_from_local, record, active),

@@ -69,7 +69,7 @@ struct EnteredMap {
 __attribute__((noinline)) inline EnteredMap enter_map(const SceneView& scene, UInt word, Vec3f direction,
                                                       SurfacePoint point, MappedFrame around, Mask lanes) {
   const ParameterReader parameters{scene, word & UInt(kMaterialOffsetMask), point.texture, lanes};
-  const UInt flags = bits(parameters.number(2));
+  const UInt flags = parameters.get(&PerturbedSlots::flags);
   // A map for the front that is seen from the back stands in a `twosided`, which mirrors directions in the surface there.
   const Mask made_for_back = (flags & UInt(kPerturbBack)) != UInt(0u);
   const Mask mirrored = lanes & (around.from_back(direction) ^ made_for_back);
