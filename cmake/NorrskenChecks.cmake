@@ -11,7 +11,10 @@ norrsken_script_test(check_includes.self_test ${scripts}/check_includes.py --sel
 norrsken_script_test(check_includes ${scripts}/check_includes.py ${PROJECT_SOURCE_DIR})
 norrsken_script_test(promises.self_test ${scripts}/check_promises.py --self-test)
 norrsken_script_test(promises ${scripts}/check_promises.py)
-norrsken_script_test(scene_docs ${scripts}/make_scene_docs.py --check)
+add_executable(list_plugins ${scripts}/list_plugins.cpp)
+target_link_libraries(list_plugins PRIVATE norrsken norrsken_options)
+set_target_properties(list_plugins PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+norrsken_script_test(scene_docs ${scripts}/make_scene_docs.py --check --plugins $<TARGET_FILE:list_plugins>)
 norrsken_script_test(check_installed.self_test ${scripts}/check_installed.py --self-test)
 norrsken_script_test(check_symbols.self_test ${scripts}/check_symbols.py --self-test ${CMAKE_CXX_COMPILER})
 

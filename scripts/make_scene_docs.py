@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""Writes docs/scenes.md, the reference of everything that a scene file may name, from the sources' own header blocks.
+"""Writes docs/scenes.md, the reference of everything that a scene file may name, and src/compile/plugin_titles.inc.
 
-    scripts/make_scene_docs.py                    write docs/scenes.md and src/compile/plugin_texts.inc
+    scripts/make_scene_docs.py                    write both
     scripts/make_scene_docs.py --check            say whether they are what would be written (exit status 1 if not)
     scripts/make_scene_docs.py --render PROGRAM   render the pictures too, with PROGRAM (build/release/norrsken)
 
-Plugins are those of src/lists. Of each, the host file's block says what its parameters are,
-the kernel header's block what its model and source are. Pictures are docs/plugin_scenes/FAMILY/NAME.xml, rendered to
+Plugins are those of src/lists. Of each, the host file declares its parameters (src/scene/parameter.h), which the program
+list_plugins (scripts/list_plugins.cpp; --plugins, build/release/list_plugins if not said) tells; the host file's block says
+what else there is to know, the kernel header's block what its model and source are. Pictures are docs/plugin_scenes/FAMILY/NAME.xml, rendered to
 docs/images/plugins/FAMILY_NAME.jpg; a plugin without such a scene has none.
 """
 import argparse
+import itertools
+import json
 import pathlib
 import re
 import subprocess
@@ -18,18 +21,18 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/scenes.md"
-TEXTS = ROOT / "src/compile/plugin_texts.inc"
+TITLES = ROOT / "src/compile/plugin_titles.inc"
 PICTURES = ROOT / "docs/images/plugins"
 SCENES = ROOT / "docs/plugin_scenes"
 ENLARGED = ("rfilter", "sampler")  # families whose pictures are about single pixels
 
-# Heading, folder, element of the scene file, lists (src/lists) that name its plugins, header with the parameters of the whole family.
+# Heading, folder, element of the scene file, lists (src/lists) that name its plugins, header with the block of the whole family.
 FAMILIES = [
     ("Integrators", "integrator", "integrator", ["integrator"], "integrator_host.h"),
     ("Sensors", "camera", "sensor", ["camera"], None),
     ("Films", "camera", "film", ["film"], None),
     ("Reconstruction filters", "rfilter", "rfilter", ["rfilter"], None),
-    ("Samplers", "sampler", "sampler", ["sampler"], "sampler_host.h"),
+    ("Samplers", "sampler", "sampler", ["sampler"], None),
     ("BSDFs", "bsdf", "bsdf", ["bsdf", "bsdf_resolved", "bsdf_adapter"], None),
     ("Textures", "texture", "texture", ["texture"], None),
     ("Emitters", "light", "emitter", ["emitter"], "light_host.h"),
@@ -81,10 +84,11 @@ def sentences(lines):
 def render_block(block):
     """Prose and tables of a host file's block, without its first line."""
     out, table, prose = [], [], []
+    heading = ""
 
     def flush():
         if table:
-            out.extend(["", "| parameter | |", "|---|---|"])
+            out.extend(["", f"| {heading} | |", "|---|---|"])
             out.extend(f"| {cell(name)} | {cell(text)} |" for name, text in table)
             table.clear()
         if prose:
@@ -112,36 +116,95 @@ def render_block(block):
             else:
                 table.append([names, entry[2]])
             column = entry.start(2)
-        elif not line or line in ("Parameters", "Children") or line.startswith("Parameters of "):
+        elif not line or re.fullmatch(r"[A-Z][a-z]+", line):  # the heading of a table
             flush()
+            heading = line.lower()
         else:
             if table:
                 flush()
-            # What the host stores is between it and the kernel.
-            if re.match(r"(Departures|Sources?|Side|Children|Stored)\b", line):
+            if re.match(r"(Departures|Sources?|Side|Children)\b", line):
                 flush()
             prose.append(line)
     flush()
-    text = "\n".join(out)
-    text = re.sub(r"\n\nStored:[^\n]*", "", text)
-    return re.sub(r"\((\w+)/\w+_host\.h\)", "(see the top of this section)", text)
+    return "\n".join(out)
 
 
-def plugin_section(folder, element, name):
+def title_and_body(folder, name):
+    """What a plugin is, and the rest of its host file's block."""
     host = header_block(ROOT / f"src/{folder}/{name}.cpp")
-    kernel = fields(header_block(ROOT / f"src/{folder}/{name}.h"))
     if not host:
         sys.exit(f"src/{folder}/{name}.cpp has no header block")
     title = re.sub(rf"^{name}: ?", "", host[0])
     body = host[1:]
-    while body and body[0] and not body[0].startswith("Parameters"):
+    while body and body[0] and not re.match(r"(Departures|Sources?|Side|Children|Measure|Types)\b", body[0]):
         title += " " + body.pop(0)
     if title.rstrip(".") == "host side":
-        title = kernel.get("Model", "")
-    out = [f"### {name}", "", cell(title[:1].upper() + title[1:])]
+        title = fields(header_block(ROOT / f"src/{folder}/{name}.h")).get("Model", "")
+    return title[:1].upper() + title[1:], body
+
+
+def plain(number):
+    return f"{number:.0f}" if number == int(number) and abs(number) < 1e7 else f"{number:g}"
+
+
+def range_of(parameter):
+    """In words; what only an integer's size bounds is no bound."""
+    low, high = parameter["min"], parameter["max"]
+    if parameter["type"] == "integer" and high is not None and high >= 2**31 - 2:
+        high = None
+    if low is not None and high is not None and parameter["min_belongs"]:
+        return f"{plain(low)} to {plain(high)}"
+    words = []
+    if low is not None:
+        words.append(("at least " if parameter["min_belongs"] else "above ") + plain(low))
+    if high is not None:
+        words.append(("at most " if parameter["max_belongs"] else "below ") + plain(high))
+    return " and ".join(words)
+
+
+def default_of(parameter):
+    text = parameter["default"]
+    if parameter["type"] == "transform" and not parameter["in_place_of"]:
+        return "identity"
+    if parameter["type"] in ("number", "color") and text:
+        return f"{float(text):.4g}" if abs(float(text)) < 1e4 else plain(float(text))
+    return f'"{text}"' if parameter["type"] == "string" and text else text
+
+
+def row_text(parameter):
+    """What a parameter is, in words: type, unit, range, default; then the text of its declaration."""
+    if parameter["choices"]:
+        words = [w + " (default)" if w == parameter["default"] else w for w in parameter["choices"]]
+        text = ", ".join(words[:-1]) + " or " + words[-1]
+    else:
+        kind = parameter["type"] + (" or texture" if parameter["texture"] else "")
+        text = ", ".join(filter(None, [kind, parameter["unit"], range_of(parameter)]))
+        default = default_of(parameter)
+        text += f" (default {default})" if default else ""
+    if parameter["required"]:
+        text += ", required"
+    if parameter["in_place_of"]:
+        text += f", in place of `{parameter['in_place_of']}`"
+    return text + (": " + parameter["text"] if parameter["text"] else "")
+
+
+def parameter_table(parameters):
+    """Neighbours that are the same in all but their names share a row."""
+    out = ["", "| parameter | |", "|---|---|"]
+    for text, group in itertools.groupby(parameters, row_text):
+        names = ", ".join(f"`{parameter['name']}`" for parameter in group)
+        out.append(f"| {names} | {cell(text)} |")
+    return out if parameters else []
+
+
+def plugin_section(folder, element, name, parameters):
+    kernel = fields(header_block(ROOT / f"src/{folder}/{name}.h"))
+    title, body = title_and_body(folder, name)
+    out = [f"### {name}", "", cell(title)]
     picture = PICTURES / f"{'film' if element == 'film' else folder}_{name}.jpg"
     if picture.exists():
         out += ["", f"![{element} {name}](images/plugins/{picture.name})"]
+    out += parameter_table(parameters)
     text = render_block(body)
     if text.strip():
         out.append(text)
@@ -151,57 +214,15 @@ def plugin_section(folder, element, name):
     return "\n".join(out)
 
 
-UNIT = re.compile(r"\b(degrees|pixels|scene units|kelvin|nm)\b")
-
-
-def title_and_body(folder, name):
-    """What a plugin is, and the rest of its host file's block."""
-    host = header_block(ROOT / f"src/{folder}/{name}.cpp")
-    title = re.sub(rf"^{name}: ?", "", host[0])
-    body = host[1:]
-    while body and body[0] and not body[0].startswith("Parameters"):
-        title += " " + body.pop(0)
-    if title.rstrip(".") == "host side":
-        title = fields(header_block(ROOT / f"src/{folder}/{name}.h")).get("Model", "")
-    return title, body
-
-
-def parameter_texts(block):
-    """Parameters of a block and their texts."""
-    table, names, inside = {}, [], False
-    for line in block:
-        entry = re.match(r"  (\S.*?)(?: {2,}|$)(.*)", line)
-        if line.startswith("Parameters"):
-            inside = True
-        elif not line.startswith("  "):
-            inside = False
-        elif inside and line.startswith("   ") and names:
-            for name in names:
-                table[name] = (table[name] + " " + line.strip()).strip()
-        elif inside and entry:
-            more = [name.strip() for name in entry[1].split(",") if name.strip()]
-            names = names + more if names and not table[names[0]] else more
-            for name in names:
-                table[name] = entry[2]
-    return {name: re.sub(" {2,}", " ", text) for name, text in table.items()}
-
-
 def literal(text):
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
-def texts():
+def titles():
     """The table of src/compile/plugin_info.cpp."""
     out = ["// Written by scripts/make_scene_docs.py from the header blocks of the sources."]
-    for _, folder, element, lists, common in FAMILIES:
-        shared = parameter_texts(header_block(ROOT / f"src/{folder}/{common}")) if common else {}
-        for name in plugin_names(lists):
-            title, body = title_and_body(folder, name)
-            parameters = {**shared, **parameter_texts(body)}
-            out.append(f'{{"{element}", "{name}", "", "", {literal(title[:1].upper() + title[1:])}}},')
-            for parameter, text in parameters.items():
-                unit = None if text.startswith("string") else UNIT.search(text.split(":")[0])
-                out.append(f'{{"{element}", "{name}", "{parameter}", "{unit[1] if unit else ""}", {literal(text)}}},')
+    for _, folder, element, lists, _ in FAMILIES:
+        out += [f'{{"{element}", "{name}", {literal(title_and_body(folder, name)[0])}}},' for name in plugin_names(lists)]
     return "\n".join(out) + "\n"
 
 
@@ -215,26 +236,31 @@ def without_effect():
     return out + [f"| {plugin or 'every ' + kind} | `{name}` | {instead} |" for kind, plugin, name, instead in rows]
 
 
-def page():
+def page(plugins):
+    """`plugins`: what list_plugins prints."""
     out = ["# Scene files: every plugin and its parameters", "",
-           "Norrsken reads the XML format of Mitsuba 3, and [scenes in pbrt's language](pbrt.md). This page is written by `scripts/make_scene_docs.py` from the header "
-           "blocks of the sources; change it there. Lengths are in scene units, angles in degrees, colours linear sRGB; "
-           "\"color\" stands for `rgb`, `spectrum` or a grey `float`. A parameter that nobody asks for is an "
-           "error, but for [those](#without-effect) that the format's base classes take. A number that may be a texture may "
-           "be a color too, whose mean counts."]
+           "Norrsken reads the XML format of Mitsuba 3, and [scenes in pbrt's language](pbrt.md). This page is written by `scripts/make_scene_docs.py` from what the "
+           "sources declare and their header blocks; change it there. Lengths are in scene units, angles in degrees, colours "
+           "linear sRGB; \"color\" stands for `rgb`, `spectrum` or a grey `float`, \"number\" for `float` or `integer`. A "
+           "parameter that nobody asks for is an error, but for [those](#without-effect) that the format's base classes take. "
+           "A number that may be a texture may be a color too, whose mean counts."]
     families = [(heading, folder, element, plugin_names(lists), common)
                 for heading, folder, element, lists, common in FAMILIES]
     out += [""] + [f"- **{heading}**: " + ", ".join(f"[{n}](#{n})" for n in names)
                    for heading, _, _, names, _ in families if names]
     for heading, folder, element, names, common in families:
-        if not names:
-            continue
         out += ["", f"## {heading}"]
+        parameters = {name: next(p["parameters"] for p in plugins if (p["kind"], p["name"]) == (element, name))
+                      for name in names}
+        # What all plugins of a family have is told once.
+        of_all = [p for p in parameters[names[0]] if len(names) > 1 and all(p in parameters[name] for name in names)]
         if common:
             block = header_block(ROOT / f"src/{folder}/{common}")
-            out += ["", cell(block[0]), render_block(block[1:]).strip("\n") and render_block(block[1:])]
+            out += ["", cell(block[0]), render_block(block[1:])]
+        if of_all:
+            out += ["", f"All {heading.lower()} have:"] + parameter_table(of_all)
         for name in names:
-            out += ["", plugin_section(folder, element, name)]
+            out += ["", plugin_section(folder, element, name, [p for p in parameters[name] if p not in of_all])]
     out += without_effect()
     return re.sub(r"\n{3,}", "\n\n", "\n".join(out)) + "\n"
 
@@ -255,12 +281,15 @@ def render(program):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--check", action="store_true", help="only say whether docs/scenes.md is up to date")
+    parser.add_argument("--check", action="store_true", help="only say whether they are up to date")
     parser.add_argument("--render", metavar="PROGRAM", help="render the pictures with this program")
+    parser.add_argument("--plugins", metavar="PROGRAM", default=ROOT / "build/release/list_plugins",
+                        help="tells the parameters: list_plugins as it was built")
     arguments = parser.parse_args()
     if arguments.render:
         render(arguments.render)
-    for path, text in ((PAGE, page()), (TEXTS, texts())):
+    plugins = json.loads(subprocess.run([arguments.plugins], check=True, capture_output=True, text=True).stdout)
+    for path, text in ((PAGE, page(plugins)), (TITLES, titles())):
         if not arguments.check:
             path.write_text(text)
         elif not path.exists() or path.read_text() != text:

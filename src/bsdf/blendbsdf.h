@@ -10,10 +10,15 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Stored: weight (scalar), then the words of the two.
 struct BlendBsdf {
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::blendbsdf;
+    NumberSlot weight;
+    MaterialWord first, second;
+  };
+
   static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Choice& choice) {
-    return choice.take(p.scalar(0), bits(p.number(3)), bits(p.number(2)), p.active);
+    return choice.take(p.get(&Stored::weight), p.get(&Stored::second), p.get(&Stored::first), p.active);
   }
 };
 

@@ -4,7 +4,8 @@
 // A model is a struct with
 //   static constexpr bool kDelta;              all of it is delta functions: nothing to evaluate
 //   static constexpr bool kUsesLobe;           sample looks at `lobe`
-//   struct Parameters;                         its parameters in lanes
+//   struct Stored;                             its block of parameters, which the host fills (tables/slots.h), with its kKind
+//   struct Parameters;                         what comes of it, in lanes
 //   static Parameters load(const ParameterReader&);
 //   static Color evaluate(const Parameters&, wo, wi);                f times |cos(wi)|
 //   static Float pdf_sa(const Parameters&, wo, wi);

@@ -12,11 +12,18 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Stored: the words inside, flags, scale, the texture's word.
 struct BumpMap {
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::bumpmap;
+    PerturbedSlots around;
+    float scale;
+    TextureWord texture;
+  };
+
   static NORRSKEN_INLINE Vec3f normal(const ParameterReader& p, const Unperturbed& s) {
-    const Vec2f slope = Bitmap::gradient(p.scene, bits(p.number(4)) & kTextureOffsetMask, p.point, p.active);
-    const Float scale = p.number(3);
+    const UInt texture = p.get(&Stored::texture) & UInt(kTextureOffsetMask);
+    const Vec2f slope = Bitmap::gradient(p.scene, texture, p.point, p.active);
+    const Float scale = p.get(&Stored::scale);
     const auto moved = [&](const Vec3f& tangent, Float height) {
       return fma(s.frame.n, fms(height, scale, dot(s.frame.n, tangent)), tangent);
     };

@@ -22,16 +22,23 @@ struct Coat {
   }
 };
 
-/// The first 12 floats of a plastic: diffuse and specular reflectance (colours), eta, the coat's diffuse reflectance from
-/// inside, specular_mean, 1 if `nonlinear`.
-inline constexpr std::uint32_t kCoatFloats = 12;
+/// What a plastic stores of its coat.
+struct CoatSlots {
+  ColorSlot diffuse_reflectance, specular_reflectance;
+  float eta;
+  float from_inside;  ///< the coat's reflectance for diffuse light from below
+  float specular_mean;
+  float nonlinear;  ///< 1 if it is
+};
 
-NORRSKEN_INLINE Coat load_coat(const ParameterReader& p) {
+template <class Stored>
+NORRSKEN_INLINE Coat load_coat(const ParameterReader& p, CoatSlots Stored::*coat) {
   Coat c;
-  c.diffuse_reflectance = p.color(0), c.specular_reflectance = p.color(4);
-  c.eta = p.number(8), c.specular_mean = p.number(10);
-  const Float from_inside = p.number(9), out = 1.0f / (c.eta * c.eta);
-  const Mask nonlinear = p.number(11) > 0.5f;
+  c.diffuse_reflectance = p.get(coat, &CoatSlots::diffuse_reflectance);
+  c.specular_reflectance = p.get(coat, &CoatSlots::specular_reflectance);
+  c.eta = p.get(coat, &CoatSlots::eta), c.specular_mean = p.get(coat, &CoatSlots::specular_mean);
+  const Float from_inside = p.get(coat, &CoatSlots::from_inside), out = 1.0f / (c.eta * c.eta);
+  const Mask nonlinear = p.get(coat, &CoatSlots::nonlinear) > 0.5f;
   const auto series = [&](Float reflectance) {
     const Float repeated = select(nonlinear, reflectance, 1.0f);
     return reflectance * out / fnma(repeated, from_inside, 1.0f);

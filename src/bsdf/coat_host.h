@@ -3,21 +3,23 @@
 
 #include <string>
 
-#include "compile/builder.h"
+#include "bsdf/coat.h"
+#include "bsdf/ior_host.h"
+#include "compile/materials.h"
 
 namespace norrsken {
 
 struct CoatMaterial {
-  ColorParameter diffuse_reflectance, specular_reflectance;
+  ColorOrTexture diffuse_reflectance, specular_reflectance;
   double eta;  ///< index of refraction inside over that outside
   bool nonlinear;
   std::string description;  ///< for `norrsken info`
 };
 
-/// `diffuse_reflectance`, `specular_reflectance`, `int_ior` (default polypropylene), `ext_ior` (default air), `nonlinear`.
-CoatMaterial read_coat(Parameters& p, Builder& builder);
+/// `diffuse_reflectance`, `specular_reflectance`, the two indices of refraction, `nonlinear`.
+CoatMaterial read_coat(Parameters& p, Materials& materials, const IorParameter& inside, const IorParameter& outside);
 
-/// The floats that load_coat (coat.h) reads; `from_inside` is the coat's reflectance for diffuse light from below.
-ParameterBlock coat_block(const CoatMaterial& coat, double from_inside);
+/// `from_inside` is the coat's reflectance for diffuse light from below.
+isa_host::CoatSlots coat_slots(const CoatMaterial& coat, double from_inside);
 
 }  // namespace norrsken

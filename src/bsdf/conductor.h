@@ -20,7 +20,14 @@ struct Conductor {
     Color specular_reflectance, eta, k;
   };
 
-  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0), p.color(4), p.color(8)}; }
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::conductor;
+    ColorSlot specular_reflectance, eta, k;
+  };
+
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) {
+    return {p.get(&Stored::specular_reflectance), p.get(&Stored::eta), p.get(&Stored::k)};
+  }
 
   static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return {0.0f, 0.0f, 0.0f}; }
 

@@ -3,21 +3,17 @@
 
 #include <string>
 
-#include "compile/builder.h"
+#include "compile/materials.h"
 
 namespace norrsken {
 
 struct ConductorMaterial {
-  ColorParameter eta, k;  ///< index of refraction eta + i k
-  ColorParameter specular_reflectance;
+  ColorOrTexture eta, k;  ///< index of refraction eta + i k
+  ColorOrTexture specular_reflectance;
   std::string description;  ///< for `norrsken info`
-
-  bool reflects_nothing() const {
-    return specular_reflectance.texture == 0 && specular_reflectance.value == glm::dvec3(0);
-  }
 };
 
 /// `material`, or else `eta` and `k`; `specular_reflectance`.
-ConductorMaterial read_conductor(Parameters& p, Builder& builder);
+ConductorMaterial read_conductor(Parameters& p, Materials& materials);
 
 }  // namespace norrsken

@@ -22,7 +22,15 @@ struct Dielectric {
     Float eta;  ///< of the other side over this side
   };
 
-  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0), p.color(4), p.number(8)}; }
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::dielectric;
+    ColorSlot specular_reflectance, specular_transmittance;
+    float eta;
+  };
+
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) {
+    return {p.get(&Stored::specular_reflectance), p.get(&Stored::specular_transmittance), p.get(&Stored::eta)};
+  }
 
   static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return {0.0f, 0.0f, 0.0f}; }
 

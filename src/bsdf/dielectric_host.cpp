@@ -1,16 +1,23 @@
 #include "bsdf/dielectric_host.h"
 
-#include <fmt/format.h>
-
-#include "bsdf/ior_host.h"
+#include <fmt/core.h>
 
 namespace norrsken {
+namespace {
 
-DielectricMaterial read_dielectric(Parameters& p, Builder& builder) {
+constexpr ColorParameter kSpecularReflectance{
+    .name = "specular_reflectance", .fallback = 1, .range = kShare, .text = "factor on the reflected light"};
+constexpr ColorParameter kSpecularTransmittance{
+    .name = "specular_transmittance", .fallback = 1, .range = kShare, .text = "factor on the light that passes"};
+
+}  // namespace
+
+DielectricMaterial read_dielectric(Parameters& p, Materials& materials, const IorParameter& inside,
+                                   const IorParameter& outside) {
   DielectricMaterial d;
-  d.eta = read_relative_ior(p, "bk7");
-  d.specular_reflectance = builder.color(p, "specular_reflectance", glm::dvec3(1), 0, 1);
-  d.specular_transmittance = builder.color(p, "specular_transmittance", glm::dvec3(1), 0, 1);
+  d.eta = read_relative_ior(p, inside, outside);
+  d.specular_reflectance = materials.read(p, kSpecularReflectance);
+  d.specular_transmittance = materials.read(p, kSpecularTransmittance);
   d.description = fmt::format("relative index of refraction {:.5g}", d.eta);
   return d;
 }

@@ -3,17 +3,19 @@
 
 #include <string>
 
-#include "compile/builder.h"
+#include "bsdf/ior_host.h"
+#include "compile/materials.h"
 
 namespace norrsken {
 
 struct DielectricMaterial {
   double eta;  ///< index of refraction inside over that outside
-  ColorParameter specular_reflectance, specular_transmittance;
+  ColorOrTexture specular_reflectance, specular_transmittance;
   std::string description;  ///< for `norrsken info`
 };
 
-/// `int_ior` (default bk7) and `ext_ior` (default air), `specular_reflectance`, `specular_transmittance`.
-DielectricMaterial read_dielectric(Parameters& p, Builder& builder);
+/// The two indices of refraction, `specular_reflectance`, `specular_transmittance`.
+DielectricMaterial read_dielectric(Parameters& p, Materials& materials, const IorParameter& inside,
+                                   const IorParameter& outside);
 
 }  // namespace norrsken

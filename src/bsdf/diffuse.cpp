@@ -1,22 +1,34 @@
 // diffuse: host side.
 //
-// Parameters
-//   reflectance  color or texture, 0 to 1 (default 0.5): share of the arriving light that is scattered back
-// Stored: reflectance (colour). A reflectance of exactly 0 is stored as `absorb`, which costs nothing to shade.
 // Side: the front scatters, the back is black; `twosided` makes both scatter.
-#include <fmt/format.h>
+#include "bsdf/diffuse.h"
 
-#include "compile/plugins.h"
+#include <fmt/core.h>
+
+#include "compile/materials.h"
 
 namespace norrsken {
+namespace {
 
-Material compile_bsdf_diffuse(Parameters& p, Builder& builder) {
-  const ColorParameter color = builder.color(p, "reflectance", glm::dvec3(0.5), 0, 1);
-  const glm::dvec3 reflectance = color.value;
-  builder.describe(p.node(),
-                   fmt::format("reflectance {:.3g} {:.3g} {:.3g}", reflectance.r, reflectance.g, reflectance.b));
-  if (reflectance == glm::dvec3(0) && color.texture == 0) return {};
-  return {.front = builder.add_material(BsdfKind::diffuse, ParameterBlock().add(color))};
+using Stored = isa_host::Diffuse::Stored;
+
+constexpr ColorParameter kReflectance{.name = "reflectance",
+                                      .fallback = 0.5,
+                                      .range = kShare,
+                                      .text = "share of the arriving light that is scattered back"};
+
+}  // namespace
+
+Material default_material(Materials& materials) {
+  return {.front = materials.add(Stored{.reflectance = ColorOrTexture{SceneColor(kReflectance.fallback)}})};
+}
+
+Material compile_bsdf_diffuse(Parameters& p, Materials& materials) {
+  const ColorOrTexture reflectance = materials.read(p, kReflectance);
+  const glm::dvec3 rgb = reflectance.rgb();
+  materials.describe(p.node(), fmt::format("reflectance {:.3g} {:.3g} {:.3g}", rgb.r, rgb.g, rgb.b));
+  if (reflectance.is_black()) return {};
+  return {.front = materials.add(Stored{.reflectance = reflectance})};
 }
 
 }  // namespace norrsken

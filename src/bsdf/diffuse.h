@@ -17,7 +17,12 @@ struct Diffuse {
     Color reflectance;
   };
 
-  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0)}; }
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::diffuse;
+    ColorSlot reflectance;
+  };
+
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.get(&Stored::reflectance)}; }
 
   static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     const Float cos_i = max(wi.z, 0.0f);

@@ -1,6 +1,6 @@
 #include "bsdf/ior_host.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <string>
@@ -37,28 +37,32 @@ const NamedIor* find_named(std::string_view name) {
   return found == std::end(kNamed) ? nullptr : found;
 }
 
-}  // namespace
-
-double read_ior(Parameters& p, std::string_view name, std::string_view fallback) {
-  const double fallback_value = find_named(fallback)->value;
+double read_ior(Parameters& p, const IorParameter& ior) {
+  const NumberParameter number{
+      .name = ior.name, .fallback = find_named(ior.fallback)->value, .range = above(0, kMaxIor), .text = ior.text};
   const auto& properties = p.node().properties;
-  const auto given =
-      std::find_if(properties.begin(), properties.end(), [&](const Property& q) { return q.name == name; });
-  if (given == properties.end() || !std::holds_alternative<std::string>(given->value)) {
-    return p.number(name, fallback_value, 0, kMaxIor, Ends::open_below);
-  }
-  const std::string material = p.text(name, fallback);
+  const auto given = std::ranges::find(properties, ior.name, &Property::name);
+  if (given == properties.end() || !std::holds_alternative<std::string>(given->value)) return p.read(number);
+  const std::string material = p.read(TextParameter{.name = ior.name, .text = ior.text});
   if (const NamedIor* named = find_named(material)) return named->value;
   std::vector<std::string> names;
   for (const NamedIor& n : kNamed) names.emplace_back(n.name);
-  p.error(name, fmt::format("'{}' is {}{}{}", name, quoted(material), given->origin, did_you_mean(material, names)),
+  p.error(ior.name,
+          fmt::format("'{}' is {}{}{}", ior.name, quoted(material), given->origin, did_you_mean(material, names)),
           "a number, or " + join(names));
-  return fallback_value;
+  return number.fallback;
 }
 
-double read_relative_ior(Parameters& p, std::string_view interior) {
-  const double inside = read_ior(p, "int_ior", interior), outside = read_ior(p, "ext_ior", "air");
-  return inside / outside;
+}  // namespace
+
+double read_relative_ior(Parameters& p, const IorParameter& inside, const IorParameter& outside) {
+  const double of_inside = read_ior(p, inside), of_outside = read_ior(p, outside);
+  return of_inside / of_outside;
+}
+
+void refuse_same_ior(Parameters& p, const IorParameter& inside, const IorParameter& outside) {
+  p.error(p.has(inside.name) ? inside.name : outside.name, "the indices of refraction of both sides are the same",
+          fmt::format("{} and {} that differ", inside.name, outside.name));
 }
 
 }  // namespace norrsken

@@ -7,10 +7,17 @@
 
 namespace norrsken {
 
-/// What the parameter says: a number greater than 0, or the name of a material (in any case).
-double read_ior(Parameters& p, std::string_view name, std::string_view fallback);
+/// A number, or the name of a material in any case.
+struct IorParameter {
+  std::string_view name;
+  std::string_view fallback;  ///< a material
+  std::string_view text;
+};
 
-/// `int_ior` over `ext_ior`: what light that enters finds. The exterior is air unless told.
-double read_relative_ior(Parameters& p, std::string_view interior);
+/// `inside` over `outside`: what light that enters finds.
+double read_relative_ior(Parameters& p, const IorParameter& inside, const IorParameter& outside);
+
+/// An error for models that two sides alike make no sense to.
+void refuse_same_ior(Parameters& p, const IorParameter& inside, const IorParameter& outside);
 
 }  // namespace norrsken

@@ -10,10 +10,15 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Stored: opacity (scalar), then the words of what is inside and of nothing.
 struct MaskBsdf {
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::mask;
+    NumberSlot opacity;
+    MaterialWord inside, nothing;
+  };
+
   static NORRSKEN_INLINE UInt behind(const ParameterReader& p, Choice& choice) {
-    return choice.take(p.scalar(0), bits(p.number(2)), bits(p.number(3)), p.active);
+    return choice.take(p.get(&Stored::opacity), p.get(&Stored::inside), p.get(&Stored::nothing), p.active);
   }
 };
 

@@ -137,9 +137,17 @@ struct Microfacet {
   static constexpr float kLastErf = 0.99999994f;  ///< the last float before 1
 };
 
-/// From the floats that `Roughness` (microfacet_host.h) is stored as: two scalars, and 1 for GGX.
-NORRSKEN_INLINE Microfacet load_microfacet(const ParameterReader& p, std::uint32_t k) {
-  return {max(p.scalar(k), Float(kMinAlpha)), max(p.scalar(k + 2), Float(kMinAlpha)), p.number(k + 4) > 0.5f};
+/// What a model stores of its facets.
+struct RoughnessSlots {
+  NumberSlot alpha_u, alpha_v;
+  float ggx;  ///< 1, or 0 for Beckmann
+};
+
+template <class Stored>
+NORRSKEN_INLINE Microfacet load_microfacet(const ParameterReader& p, RoughnessSlots Stored::*facets) {
+  return {max(p.get(facets, &RoughnessSlots::alpha_u), Float(kMinAlpha)),
+          max(p.get(facets, &RoughnessSlots::alpha_v), Float(kMinAlpha)),
+          p.get(facets, &RoughnessSlots::ggx) > 0.5f};
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

@@ -3,27 +3,39 @@
 
 #include <string>
 
-#include "compile/builder.h"
+#include "bsdf/microfacet.h"
+#include "compile/materials.h"
 
 namespace norrsken {
 
-/// Slope of the roughest surface that is accepted.
-inline constexpr double kMaxAlpha = 100;
+/// Roughness 100 is the slope of the roughest surface that is accepted.
+inline constexpr NumberParameter kAlpha{
+    .name = "alpha", .fallback = 0.1, .range = {0, 100}, .text = "roughness, the root mean square slope of the facets"};
+inline constexpr NumberParameter kAlphaU{.name = "alpha_u",
+                                         .fallback = 0.1,
+                                         .range = kAlpha.range,
+                                         .text = "the same along u of the texture coordinates; both or none",
+                                         .in_place_of = "alpha"};
+inline constexpr NumberParameter kAlphaV{.name = "alpha_v",
+                                         .fallback = 0.1,
+                                         .range = kAlpha.range,
+                                         .text = "the same along v of the texture coordinates; both or none",
+                                         .in_place_of = "alpha"};
+inline constexpr ChoiceParameter<bool> kIsGgx{
+    .name = "distribution", .words = {{{"beckmann", false}, {"ggx", true}}}, .text = "of the facets' normals"};
+/// Visible normals are always what is sampled.
+inline constexpr BooleanParameter kSampleVisible{
+    .name = "sample_visible", .fallback = true, .text = "accepted; visible normals are sampled either way"};
 
 struct Roughness {
-  ScalarParameter alpha_u, alpha_v;
+  NumberOrTexture alpha_u, alpha_v;
   bool ggx;
 };
 
-/// `distribution` ("beckmann" or "ggx"), and `alpha` or both of `alpha_u` and `alpha_v`. `sample_visible` is read and
-/// changes nothing: visible normals are always what is sampled.
-Roughness read_roughness(Parameters& p, Builder& builder);
+/// All of the above.
+Roughness read_roughness(Parameters& p, Materials& materials);
 
-/// `distribution` alone.
-bool read_is_ggx(Parameters& p);
-
-/// Two scalars and 1 for GGX, as the kernels' load_microfacet reads them.
-void add_roughness(ParameterBlock& block, const Roughness& roughness);
+isa_host::RoughnessSlots roughness_slots(const Roughness& roughness);
 
 /// For `norrsken info`: "ggx, alpha 0.1".
 std::string describe_roughness(const Roughness& roughness);

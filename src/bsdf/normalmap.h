@@ -11,10 +11,15 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Stored: the words inside, flags, the normal map (color).
 struct NormalMap {
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::normalmap;
+    PerturbedSlots around;
+    ColorSlot normals;
+  };
+
   static NORRSKEN_INLINE Vec3f normal(const ParameterReader& p, const Unperturbed&) {
-    const Color c = p.color(3);
+    const Color c = p.get(&Stored::normals);
     const auto decoded = [](Float x) { return fms(2.0f, x, 1.0f); };
     return {decoded(c.r), decoded(c.g), decoded(c.b)};
   }

@@ -20,7 +20,13 @@ struct Plastic {
   static constexpr bool kUsesLobe = true;
 
   using Parameters = Coat;
-  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return load_coat(p); }
+
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::plastic;
+    CoatSlots coat;
+  };
+
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return load_coat(p, &Stored::coat); }
 
   static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
     const Float crossing = (1.0f - reflectance(p, wo)) * (1.0f - reflectance(p, wi));

@@ -1,39 +1,50 @@
 // principled: host side.
 //
-// Parameters
-//   base_color       color or texture, 0 to 1 (default 0.5)
-//   roughness        float or texture, 0 to 1 (default 0.5): root of the facets' slope
-//   anisotropic      float or texture, 0 to 1 (default 0): roughness less along u of the texture coordinates than along v
-//   metallic         float or texture, 0 to 1 (default 0): from dielectric to metal
-//   spec_trans       float or texture, 0 to 1 (default 0): from diffuse to glass
-//   eta              float greater than 0: index of refraction inside over that outside; or else
-//   specular         float, 0 to 1 (default 0.5): 1/0.08 of what is reflected head on
-//   spec_tint        float or texture, 0 to 1 (default 0): share of base_color in the dielectric's reflection
-//   sheen, sheen_tint  float or texture, 0 to 1 (default 0): a lobe at grazing angles, and how far it has base_color's tint
-//   flatness         float or texture, 0 to 1 (default 0): from diffuse to an approximation of subsurface scattering
-//   clearcoat, clearcoat_gloss  float or texture, 0 to 1 (default 0): a second specular lobe, and how sharp it is
-//   diffuse_reflectance_sampling_rate, main_specular_sampling_rate, clearcoat_sampling_rate
-//                    float from 0 (default 1): how often each lobe is sampled, in proportion
 // What is out of these ranges is clamped, with a warning.
-// Stored: base_color (colour); roughness, anisotropic, metallic, spec_trans, spec_tint, sheen, sheen_tint, flatness,
-// clearcoat, clearcoat_gloss (scalars); relative index of refraction, 1 for the back, the three rates.
 // Side: the front; the back too, with the inverse index, where spec_trans lets light through.
-#include <fmt/format.h>
+#include "bsdf/principled.h"
+
+#include <fmt/core.h>
 
 #include <cmath>
 
-#include "compile/plugins.h"
+#include "bsdf/disney_host.h"
+#include "compile/materials.h"
 
 namespace norrsken {
 namespace {
 
-constexpr double kMaxRate = 1e6, kMaxIndex = 1e4;
+using namespace disney;
+using Stored = isa_host::Principled::Stored;
+
+constexpr NumberParameter kMetallic = share("metallic", 0, "from dielectric to metal");
+constexpr NumberParameter kSpecTrans = share("spec_trans", 0, "from diffuse to glass");
+constexpr NumberParameter kSpecTint = share("spec_tint", 0, "share of base_color in the dielectric's reflection");
+constexpr NumberParameter kClearcoat = share("clearcoat", 0, "a second specular lobe");
+constexpr NumberParameter kClearcoatGloss = share("clearcoat_gloss", 0, "how sharp the second specular lobe is");
+constexpr NumberParameter kEta{.name = "eta",
+                               .fallback = 1.5,
+                               .range = above(0, kMaxIndex),
+                               .text = "index of refraction inside over that outside",
+                               .in_place_of = "specular"};
+constexpr NumberParameter kSpecular{.name = "specular",
+                                    .fallback = 0.5,
+                                    .range = kShare,
+                                    .text = "1/0.08 of what is reflected head on",
+                                    .beyond = Beyond::is_clamped,
+                                    .takes_colors = true};
+constexpr NumberParameter kDiffuseRate =
+    rate("diffuse_reflectance_sampling_rate", "how often the diffuse lobe is sampled, in proportion");
+constexpr NumberParameter kSpecularRate =
+    rate("main_specular_sampling_rate", "how often the main specular lobe is sampled, in proportion");
+constexpr NumberParameter kClearcoatRate =
+    rate("clearcoat_sampling_rate", "how often the clear coat is sampled, in proportion");
 
 double read_eta(Parameters& p, bool transmits) {
-  const double eta = p.number("eta", 1.5, 0, kMaxIndex, Ends::open_below);
-  double specular = p.mean_clamped("specular", 0.5, 0, 1);
-  if (p.has("eta")) {
-    if (p.has("specular")) p.error("specular", "'specular' is given next to 'eta'", "eta or specular");
+  const double eta = p.read(kEta);
+  double specular = p.read(kSpecular);
+  if (p.has(kEta.name)) {
+    if (p.has(kSpecular.name)) p.error(kSpecular.name, "'specular' is given next to 'eta'", "eta or specular");
     // What is not there cannot be refracted at.
     return transmits && eta == 1 ? 1.001 : eta;
   }
@@ -43,35 +54,38 @@ double read_eta(Parameters& p, bool transmits) {
 
 }  // namespace
 
-Material compile_bsdf_principled(Parameters& p, Builder& builder) {
-  const ColorParameter base_color = builder.color(p, "base_color", glm::dvec3(0.5), 0, 1);
-  const ScalarParameter roughness = builder.share(p, "roughness", 0.5);
-  ParameterBlock block;
-  block.add(base_color).add(roughness);
-  bool transmits = false;
-  for (const std::string_view name : {"anisotropic", "metallic", "spec_trans", "spec_tint", "sheen", "sheen_tint",
-                                      "flatness", "clearcoat", "clearcoat_gloss"}) {
-    const ScalarParameter value = builder.share(p, name, 0);
-    const bool matters = value.value != 0 || value.texture != 0;
-    if (matters && name == "anisotropic") builder.need_uv();
-    if (matters && name == "spec_trans") transmits = true;
-    block.add(value);
-  }
+Material compile_bsdf_principled(Parameters& p, Materials& materials) {
+  const ColorOrTexture base_color = materials.read(p, kBaseColor);
+  const NumberOrTexture roughness = materials.read(p, kRoughness), anisotropic = materials.read(p, kAnisotropic);
+  if (!anisotropic.is_zero()) materials.need_uv();
+  const NumberOrTexture metallic = materials.read(p, kMetallic), spec_trans = materials.read(p, kSpecTrans);
+  const bool transmits = !spec_trans.is_zero();
   const double eta = read_eta(p, transmits);
-  double rates[3];
-  const char* const rate_names[] = {"diffuse_reflectance_sampling_rate", "main_specular_sampling_rate",
-                                    "clearcoat_sampling_rate"};
-  for (int i = 0; i < 3; ++i) rates[i] = p.number(rate_names[i], 1, 0, kMaxRate);
-  builder.describe(p.node(), fmt::format("base color {:.3g} {:.3g} {:.3g}, roughness {:.3g}, eta {:.4g}{}",
-                                         base_color.value.r, base_color.value.g, base_color.value.b, roughness.value,
-                                         eta, transmits ? ", transmits" : ""));
-  const auto side = [&](double relative, double is_back) {
-    ParameterBlock all = block;
-    return builder.add_material(BsdfKind::principled,
-                                all.add(relative).add(is_back).add(rates[0]).add(rates[1]).add(rates[2]));
-  };
-  Material material{.front = side(eta, 0)};
-  if (transmits) material.back = side(1 / eta, 1);
+  const Stored front{.base_color = base_color,
+                     .roughness = roughness,
+                     .anisotropic = anisotropic,
+                     .metallic = metallic,
+                     .spec_trans = spec_trans,
+                     .spec_tint = materials.read(p, kSpecTint),
+                     .sheen = materials.read(p, kSheen),
+                     .sheen_tint = materials.read(p, kSheenTint),
+                     .flatness = materials.read(p, kFlatness),
+                     .clearcoat = materials.read(p, kClearcoat),
+                     .clearcoat_gloss = materials.read(p, kClearcoatGloss),
+                     .eta = static_cast<float>(eta),
+                     .is_back = 0,
+                     .diffuse_rate = static_cast<float>(p.read(kDiffuseRate)),
+                     .specular_rate = static_cast<float>(p.read(kSpecularRate)),
+                     .clearcoat_rate = static_cast<float>(p.read(kClearcoatRate))};
+  const glm::dvec3 base = base_color.rgb();
+  materials.describe(p.node(), fmt::format("base color {:.3g} {:.3g} {:.3g}, roughness {:.3g}, eta {:.4g}{}", base.r,
+                                           base.g, base.b, roughness.value, eta, transmits ? ", transmits" : ""));
+  Material material{.front = materials.add(front)};
+  if (transmits) {
+    Stored back = front;
+    back.eta = static_cast<float>(1 / eta), back.is_back = 1;
+    material.back = materials.add(back);
+  }
   return material;
 }
 

@@ -32,22 +32,33 @@ struct Principled {
     Mask front;                                         ///< else inside, where there are facets only
   };
 
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::principled;
+    ColorSlot base_color;
+    NumberSlot roughness, anisotropic, metallic, spec_trans, spec_tint, sheen, sheen_tint, flatness, clearcoat,
+        clearcoat_gloss;
+    float eta;
+    float is_back;  ///< 1 if it is
+    float diffuse_rate, specular_rate, clearcoat_rate;
+  };
+
   static NORRSKEN_INLINE Parameters load(const ParameterReader& r) {
     Parameters p;
-    p.base_color = r.color(0), p.roughness = r.scalar(4);
-    p.facets = facets_of(p.roughness, r.scalar(6));
-    p.metallic = r.scalar(8);
-    const Float spec_trans = r.scalar(10), dielectric = 1.0f - p.metallic;
+    p.base_color = r.get(&Stored::base_color), p.roughness = r.get(&Stored::roughness);
+    p.facets = facets_of(p.roughness, r.get(&Stored::anisotropic));
+    p.metallic = r.get(&Stored::metallic);
+    const Float spec_trans = r.get(&Stored::spec_trans), dielectric = 1.0f - p.metallic;
     p.base = dielectric * (1.0f - spec_trans), p.glass = dielectric * spec_trans;
-    p.spec_tint = r.scalar(12), p.sheen = r.scalar(14), p.sheen_tint = r.scalar(16), p.flatness = r.scalar(18);
-    p.clearcoat = r.scalar(20);
-    const Float coat_alpha = mix(0.1f, 0.001f, r.scalar(22));
+    p.spec_tint = r.get(&Stored::spec_tint), p.sheen = r.get(&Stored::sheen);
+    p.sheen_tint = r.get(&Stored::sheen_tint), p.flatness = r.get(&Stored::flatness);
+    p.clearcoat = r.get(&Stored::clearcoat);
+    const Float coat_alpha = mix(0.1f, 0.001f, r.get(&Stored::clearcoat_gloss));
     p.coat = {coat_alpha * coat_alpha};
-    p.eta = r.number(24), p.front = r.number(25) == 0.0f;
-    const Float behind = select(p.glass > 0.0f, Float(1.0f), Float(0.0f));
-    const Float diffuse = zero_unless(p.front, p.base * r.number(26));
-    const Float specular = select(p.front, r.number(27), behind);
-    const Float clearcoat = zero_unless(p.front, 0.25f * p.clearcoat * r.number(28));
+    p.eta = r.get(&Stored::eta), p.front = r.get(&Stored::is_back) == 0.0f;
+    const Float behind = select(p.glass > 0.0f, Float(1.0f), 0.0f);
+    const Float diffuse = zero_unless(p.front, p.base * r.get(&Stored::diffuse_rate));
+    const Float specular = select(p.front, r.get(&Stored::specular_rate), behind);
+    const Float clearcoat = zero_unless(p.front, 0.25f * p.clearcoat * r.get(&Stored::clearcoat_rate));
     const Float scale = 1.0f / max(diffuse + specular + clearcoat, 1e-20f);
     p.diffuse_prob = diffuse * scale, p.specular_prob = specular * scale, p.clearcoat_prob = clearcoat * scale;
     return p;

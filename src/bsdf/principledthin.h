@@ -29,19 +29,28 @@ struct PrincipledThin {
     Float specular_reflection_prob, specular_transmission_prob, reflection_prob, transmission_prob;
   };
 
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::principledthin;
+    ColorSlot base_color;
+    NumberSlot roughness, anisotropic, spec_trans, spec_tint, sheen, sheen_tint, flatness, eta, diff_trans;
+    float specular_reflection_rate, specular_transmission_rate, reflection_rate, transmission_rate;
+  };
+
   static NORRSKEN_INLINE Parameters load(const ParameterReader& r) {
     Parameters p;
-    p.base_color = r.color(0), p.roughness = r.scalar(4), p.eta = r.scalar(18);
-    const Float anisotropic = r.scalar(6);
+    p.base_color = r.get(&Stored::base_color), p.roughness = r.get(&Stored::roughness), p.eta = r.get(&Stored::eta);
+    const Float anisotropic = r.get(&Stored::anisotropic);
     p.facets = facets_of(p.roughness, anisotropic);
     p.facets_behind = facets_of(p.roughness * fma(p.eta, 0.65f, -0.35f), anisotropic);
-    p.spec_trans = r.scalar(8), p.spec_tint = r.scalar(10);
-    p.sheen = r.scalar(12), p.sheen_tint = r.scalar(14), p.flatness = r.scalar(16);
-    const Float through = r.scalar(20) * 0.5f, diffuse = 1.0f - p.spec_trans;
+    p.spec_trans = r.get(&Stored::spec_trans), p.spec_tint = r.get(&Stored::spec_tint);
+    p.sheen = r.get(&Stored::sheen), p.sheen_tint = r.get(&Stored::sheen_tint);
+    p.flatness = r.get(&Stored::flatness);
+    const Float through = r.get(&Stored::diff_trans) * 0.5f, diffuse = 1.0f - p.spec_trans;
     p.reflected = diffuse * (1.0f - through), p.transmitted = diffuse * through;
     const Float half = 0.5f * p.spec_trans;
-    const Float probs[] = {half * r.number(22), half * r.number(23), p.reflected * r.number(24),
-                           p.transmitted * r.number(25)};
+    const Float probs[] = {
+        half * r.get(&Stored::specular_reflection_rate), half * r.get(&Stored::specular_transmission_rate),
+        p.reflected * r.get(&Stored::reflection_rate), p.transmitted * r.get(&Stored::transmission_rate)};
     const Float scale = 1.0f / max(probs[0] + probs[1] + probs[2] + probs[3], 1e-20f);
     p.specular_reflection_prob = probs[0] * scale, p.specular_transmission_prob = probs[1] * scale;
     p.reflection_prob = probs[2] * scale, p.transmission_prob = probs[3] * scale;

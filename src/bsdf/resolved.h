@@ -7,14 +7,19 @@
 //   static UInt behind(const ParameterReader&, Choice&);     the material word behind it
 // but one that perturbs the frame has instead
 //   static Vec3f normal(const ParameterReader&, const Unperturbed&);     the new normal in the frame there, of any length
-// and its block begins with the words behind it, for what is then seen from the front and from the back, and flags
-// (kPerturb...).
+// and its block begins with PerturbedSlots. Both have a `Stored`, as models do (bsdf.h).
 #pragma once
 
 #include "bsdf/bsdf.h"
 #include "math/frame.h"
 
 namespace norrsken::NORRSKEN_ISA {
+
+/// What the block of a map begins with.
+struct PerturbedSlots {
+  MaterialWord inside[2];  ///< behind it, for what is then seen from the front and from the back
+  std::uint32_t flags;     ///< kPerturb...
+};
 
 /// A surface as it is without a map. Normals are those of the outside, whichever side is looked at.
 struct Unperturbed {

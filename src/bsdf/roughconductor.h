@@ -25,8 +25,15 @@ struct RoughConductor {
     Microfacet facets;
   };
 
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::roughconductor;
+    ColorSlot specular_reflectance, eta, k;
+    RoughnessSlots facets;
+  };
+
   static NORRSKEN_INLINE Parameters load(const ParameterReader& p) {
-    return {p.color(0), p.color(4), p.color(8), load_microfacet(p, 12)};
+    return {p.get(&Stored::specular_reflectance), p.get(&Stored::eta), p.get(&Stored::k),
+            load_microfacet(p, &Stored::facets)};
   }
 
   static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {

@@ -27,8 +27,16 @@ struct RoughDielectric {
     Float eta;  ///< of the other side over this side
   };
 
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::roughdielectric;
+    ColorSlot specular_reflectance, specular_transmittance;
+    RoughnessSlots facets;
+    float eta;
+  };
+
   static NORRSKEN_INLINE Parameters load(const ParameterReader& p) {
-    return {p.color(0), p.color(4), load_microfacet(p, 8), p.number(13)};
+    return {p.get(&Stored::specular_reflectance), p.get(&Stored::specular_transmittance),
+            load_microfacet(p, &Stored::facets), p.get(&Stored::eta)};
   }
 
   static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {

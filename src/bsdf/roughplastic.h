@@ -31,10 +31,19 @@ struct RoughPlastic {
     Mask active;
   };
 
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::roughplastic;
+    CoatSlots coat;
+    float alpha;
+    float ggx;                              ///< 1, or 0 for Beckmann
+    float transmittances[kTransmittances];  ///< of the coat, for cosines evenly from 0 to 1
+  };
+
   static NORRSKEN_INLINE Parameters load(const ParameterReader& p) {
-    const Float alpha = max(p.number(kCoatFloats), Float(kMinAlpha));
-    const Mask ggx = p.number(kCoatFloats + 1) > 0.5f;
-    return {load_coat(p), {alpha, alpha, ggx}, p.scene.parameters, p.offset + UInt(kCoatFloats + 2), p.active};
+    const Float alpha = max(p.get(&Stored::alpha), Float(kMinAlpha));
+    const Mask ggx = p.get(&Stored::ggx) > 0.5f;
+    const UInt entry = p.offset + UInt(floats_before(&Stored::transmittances));
+    return {load_coat(p, &Stored::coat), {alpha, alpha, ggx}, p.scene.parameters, entry, p.active};
   }
 
   static NORRSKEN_INLINE Color evaluate(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {

@@ -23,7 +23,15 @@ struct ThinDielectric {
     Float eta;  ///< of the sheet over its surroundings
   };
 
-  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) { return {p.color(0), p.color(4), p.number(8)}; }
+  struct Stored {
+    static constexpr BsdfKind kKind = BsdfKind::thindielectric;
+    ColorSlot specular_reflectance, specular_transmittance;
+    float eta;
+  };
+
+  static NORRSKEN_INLINE Parameters load(const ParameterReader& p) {
+    return {p.get(&Stored::specular_reflectance), p.get(&Stored::specular_transmittance), p.get(&Stored::eta)};
+  }
 
   static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return {0.0f, 0.0f, 0.0f}; }
 

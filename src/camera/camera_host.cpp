@@ -1,22 +1,39 @@
 #include "camera/camera_host.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/geometric.hpp>
 
 #include "compile/field_of_view.h"
 
 namespace norrsken {
+namespace {
+
+constexpr double kFarthest = 8 * kMaxCoordinate;  // no two points are so far apart
+
+constexpr NumberParameter kNearClip{.name = "near_clip",
+                                    .fallback = 1e-2,
+                                    .range = above(0, kMaxCoordinate),
+                                    .text = "along the axis: nothing nearer is seen",
+                                    .unit = "scene units"};
+constexpr NumberParameter kFarClip{.name = "far_clip",
+                                   .fallback = 1e4,
+                                   .range = {-kFarthest, kFarthest},
+                                   .text = "along the axis, above near_clip: nothing farther is seen",
+                                   .unit = "scene units",
+                                   .beyond = Beyond::is_clamped_with_a_note};
+
+}  // namespace
+
 void store(float (&out)[3], const glm::dvec3& v) {
   for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
 }
 
 void read_clip_planes(Parameters& p, CameraRecord& camera) {
-  const double near_clip = p.number("near_clip", 1e-2, 0, kMaxCoordinate, Ends::open_below);
-  constexpr double kFarthest = 8 * kMaxCoordinate;  // no two points are so far apart
-  const double far_clip = p.number_clamped("far_clip", 1e4, -kFarthest, kFarthest, Diagnostic::Severity::note);
+  const double near_clip = p.read(kNearClip);
+  const double far_clip = p.read(kFarClip);
   if (near_clip >= far_clip) {
-    p.error(p.has("near_clip") ? "near_clip" : "far_clip",
+    p.error(p.has(kNearClip.name) ? kNearClip.name : kFarClip.name,
             fmt::format("'near_clip' is {}, but 'far_clip' is {}", near_clip, far_clip),
             "a near_clip smaller than the far_clip");
   }
@@ -25,10 +42,10 @@ void read_clip_planes(Parameters& p, CameraRecord& camera) {
 }
 
 CameraFrame read_rigid_frame(Parameters& p) {
-  const glm::dmat4 to_world = p.transform("to_world");
+  const glm::dmat4 to_world = p.read(kRigidToWorld);
   const glm::dmat3 linear(to_world);
   if (!keeps_lengths(linear)) {
-    p.error("to_world", "'to_world' of a sensor scales", "translations, rotations and lookat");
+    p.error(kRigidToWorld.name, "'to_world' of a sensor scales", "translations, rotations and lookat");
   }
   return {glm::dvec3(to_world[3]), linear[0], linear[1], glm::normalize(linear[2])};
 }

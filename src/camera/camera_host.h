@@ -14,6 +14,9 @@ struct CameraFrame {
   glm::dvec3 origin, left, up, forward;
 };
 
+inline constexpr TransformParameter kRigidToWorld{
+    .name = "to_world", .text = "without scale; local +z is the direction of view, +y up and +x left"};
+
 void store(float (&out)[3], const glm::dvec3& v);
 
 /// near_clip and far_clip.

@@ -1,27 +1,29 @@
 // orthographic: parallel rays; the film is 2 units wide.
 //
-// Parameters
-//   near_clip, far_clip  numbers above 0, units along the axis (default 0.01 and 10000): nothing nearer or farther is
-//                        seen
-//   to_world             transform; local +z is the direction of view, +y up and +x left. Scaling by s makes the picture
-//                        2 s wide.
 // Children: film, sampler.
 // Measure: every film point has the same weight.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "camera/camera_host.h"
-#include "compile/plugins.h"
+#include "compile/frame_tools.h"
 
 namespace norrsken {
+namespace {
 
-CameraRecord compile_sensor_orthographic(Parameters& p, Builder& builder, const FilmSettings& film) {
+constexpr TransformParameter kToWorld{
+    .name = "to_world",
+    .text = "local +z is the direction of view, +y up and +x left. Scaling by s makes the picture 2 s wide"};
+
+}  // namespace
+
+CameraRecord compile_sensor_orthographic(Parameters& p, Sensors& sensors, const FilmSettings& film) {
   CameraRecord camera{};
   camera.kind = CameraKind::orthographic;
   read_clip_planes(p, camera);
-  const glm::dmat4 to_world = p.transform("to_world");
+  const glm::dmat4 to_world = p.read(kToWorld);
   const glm::dmat3 axes(to_world);
   const CameraFrame frame{glm::dvec3(to_world[3]), axes[0], axes[1], axes[2]};
   const double unit = glm::length(frame.forward), near_clip = static_cast<double>(camera.near_clip);
@@ -31,7 +33,7 @@ CameraRecord compile_sensor_orthographic(Parameters& p, Builder& builder, const 
   // As in Mitsuba the near plane is scaled with the camera, and what lies between it and the far plane is not.
   camera.far_clip = static_cast<float>(near_clip * unit + static_cast<double>(camera.far_clip) - near_clip);
   camera.near_clip = static_cast<float>(near_clip * unit);
-  builder.describe(p.node(), fmt::format("{:.4g} wide", 2 * glm::length(axes[0])));
+  sensors.describe(p.node(), fmt::format("{:.4g} wide", 2 * glm::length(axes[0])));
   return camera;
 }
 

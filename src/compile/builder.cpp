@@ -71,7 +71,8 @@ Material Builder::bsdf(const Node& node) {
   } else if (const auto* plugin = find_plugin(bsdf_plugins(), node, diagnostics_)) {
     ++bsdf_depth_;
     Parameters p = parameters(node);
-    material = plugin->compile(p, *this);
+    Materials materials(*this);
+    material = plugin->compile(p, materials);
     p.finish();
     --bsdf_depth_;
     for (const Node::Child& child : node.children) {
@@ -90,12 +91,6 @@ Material Builder::bsdf(const Node& node) {
   return material;
 }
 
-void add_to_uv(ParameterBlock& block, const glm::dmat4& transform) {
-  for (int row = 0; row < 2; ++row) {
-    for (const int column : {0, 1, 3}) block.add(transform[column][row]);
-  }
-}
-
 Texture Builder::texture(const Node& node) {
   if (const auto known = textures_.find(&node); known != textures_.end()) {
     vary(variation_of(known->second));
@@ -104,7 +99,8 @@ Texture Builder::texture(const Node& node) {
   Texture texture;
   if (const auto* plugin = find_plugin(texture_plugins(), node, diagnostics_)) {
     Parameters p = parameters(node);
-    texture = plugin->compile(p, *this);
+    Textures textures(*this);
+    texture = plugin->compile(p, textures);
     p.finish();
   }
   textures_.emplace(&node, texture);
@@ -112,30 +108,29 @@ Texture Builder::texture(const Node& node) {
   return texture;
 }
 
-TextureWord Builder::add_texture(TextureKind kind, const ParameterBlock& parameters) {
+TextureWord Builder::add_texture(TextureKind kind, std::span<const float> block) {
   need_uv();
   tables().texture_kinds |= 1u << static_cast<std::uint32_t>(kind);
-  return make_texture(kind, add_parameters(parameters.values()));
+  return make_texture(kind, add_parameters(block));
 }
 
-std::optional<Texture> Builder::texture_of(Parameters& p, std::string_view name, double min, double max) {
+std::optional<Texture> Builder::texture_of(Parameters& p, std::string_view name, const Range& range) {
   const Node::Child* child = p.texture(name);
   if (!child) return std::nullopt;
-  return within_range(p, name, texture(*child->node), min, max);
+  return within_range(p, name, texture(*child->node), range);
 }
 
-ColorParameter Builder::color(Parameters& p, std::string_view name, glm::dvec3 fallback, double min, double max,
-                              bool emission) {
-  if (const auto texture = texture_of(p, name, min, max)) return {texture->mean, texture->word};
-  return {p.color(name, fallback, min, max, emission)};
+ColorOrTexture Builder::read(Parameters& p, const ColorParameter& color) {
+  if (const auto texture = texture_of(p, color.name, color.range)) return {SceneColor(texture->mean), texture->word};
+  return {p.read(color)};
 }
 
-ScalarParameter Builder::scalar(Parameters& p, std::string_view name, double fallback, double min, double max,
-                                Ends ends) {
-  if (const auto texture = texture_of(p, name, min, max))
-    return {(texture->mean.x + texture->mean.y + texture->mean.z) / 3,
-            texture->number != 0 ? texture->number : texture->word};
-  return {p.mean(name, fallback, min, max, ends)};
+NumberOrTexture Builder::read(Parameters& p, const NumberParameter& number) {
+  if (const auto texture = texture_of(p, number.name, number.range))
+    return {SceneColor(texture->mean).mean(), texture->number != 0 ? texture->number : texture->word};
+  NumberParameter value = number;
+  value.takes_colors = true;
+  return {p.read(value)};
 }
 
 std::uint32_t Builder::add_parameters(std::span<const float> values) {
@@ -149,9 +144,9 @@ std::uint32_t Builder::add_parameters(std::span<const float> values) {
   return 0;
 }
 
-MaterialWord Builder::add_material(BsdfKind kind, const ParameterBlock& parameters) {
+MaterialWord Builder::add_material(BsdfKind kind, std::span<const float> block) {
   tables().bsdf_kinds |= 1u << static_cast<std::uint32_t>(kind);
-  return make_material(kind, add_parameters(parameters.values()));
+  return make_material(kind, add_parameters(block));
 }
 
 std::uint32_t Builder::add_light(const LightRecord& light, const LightPower& power) {

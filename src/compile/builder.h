@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -17,79 +16,20 @@
 
 #include "base/memory.h"
 #include "compile/compile.h"
+#include "compile/frame_tools.h"
 #include "compile/geometry_builder.h"
 #include "compile/images.h"
 #include "compile/light_choice.h"
 #include "compile/mesh_attributes.h"
 #include "compile/plugin_table.h"
+#include "compile/shapes.h"
+#include "compile/texture.h"
 #include "scene/parameters.h"
 
 namespace norrsken {
 
 /// Bounds on what a scene may ask for.
-inline constexpr int kMaxFilmSide = 65536;
 inline constexpr std::uint64_t kMaxFilmPixels = std::uint64_t{1} << 28;
-inline constexpr double kMaxEmission = 1e18;  ///< of radiance and intensity; its square must fit a float
-
-/// A parameter that may be a texture; `value` is then a colour to describe it by.
-struct ColorParameter {
-  glm::dvec3 value;
-  TextureWord texture = 0;
-};
-struct ScalarParameter {
-  double value;
-  TextureWord texture = 0;
-};
-
-/// A texture, and what is known of its values, if anything. Word 0: none, after a complaint.
-struct Texture {
-  TextureWord word = 0;
-  glm::dvec3 mean{0.5};
-  double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
-  std::uint32_t width = 1, height = 1;  ///< in texels, for what has any
-  TextureWord number = 0;               ///< in place of `word` where it stands for a number, if that is another one
-  /// The same with all values brought into a range; empty where they were written by hand.
-  std::function<Texture(double min, double max, const SourceLocation&)> clamped = {};
-};
-
-/// A model's parameters in the order in which its kernel's ParameterReader counts them.
-class ParameterBlock {
- public:
-  /// 4 floats: `color(k)`
-  ParameterBlock& add(const ColorParameter& color) {
-    add_values(color.value);
-    values_.push_back(std::bit_cast<float>(color.texture));
-    return *this;
-  }
-  /// 2 floats: `scalar(k)`
-  ParameterBlock& add(const ScalarParameter& scalar) {
-    values_.push_back(static_cast<float>(scalar.value));
-    values_.push_back(std::bit_cast<float>(scalar.texture));
-    return *this;
-  }
-  /// 1 float: `number(k)`
-  ParameterBlock& add(double number) {
-    values_.push_back(static_cast<float>(number));
-    return *this;
-  }
-  /// 3 floats: `numbers3(k)`
-  ParameterBlock& add_values(const glm::dvec3& v) { return add(v.x).add(v.y).add(v.z); }
-  /// 1 float that holds the bits of a word.
-  ParameterBlock& add_word(std::uint32_t word) {
-    values_.push_back(std::bit_cast<float>(word));
-    return *this;
-  }
-  std::span<const float> values() const { return values_; }
-
- private:
-  std::vector<float> values_;
-};
-
-/// 6 floats: the map of texture coordinates that a transformation makes in x and y (see texture/texture.h).
-void add_to_uv(ParameterBlock& block, const glm::dmat4& transform);
-
-/// How often an emitter is chosen, in proportion.
-double read_sampling_weight(Parameters& emitter);
 
 class Builder {
  public:
@@ -101,7 +41,7 @@ class Builder {
   /// The frame alone, of a description that need have no more than sensors and integrators.
   SceneFrame build_frame(const ViewOptions& view);
 
-  // --- for plugins -------------------------------------------------------------------------------------------------
+  // --- for the families' tools (plugin_tools.h) ----------------------------------------------------------------------
   const FileSystem& files() const { return files_; }
   Diagnostics& diagnostics() const { return diagnostics_; }
   /// Triangles come first in `surfaces`; spheres are added behind them when all shapes are known.
@@ -109,27 +49,21 @@ class Builder {
 
   /// The material of a `bsdf` node; a node that several shapes refer to is compiled once.
   Material bsdf(const Node& node);
-  /// A colour, or a texture where a child node of that name stands; textures that tell their values are held against
-  /// the range too, those of files by `within_range`.
-  ColorParameter color(Parameters& p, std::string_view name, glm::dvec3 fallback, double min, double max,
-                       bool emission = false);
-  ScalarParameter scalar(Parameters& p, std::string_view name, double fallback, double min, double max,
-                         Ends ends = Ends::closed);
-  /// A share from 0 to 1: what is out of that range is brought into it, with a warning.
-  ScalarParameter share(Parameters& p, std::string_view name, double fallback);
+  ColorOrTexture read(Parameters& p, const ColorParameter& color);
+  NumberOrTexture read(Parameters& p, const NumberParameter& number);
   /// The texture of a `texture` node; one that several parameters refer to is compiled once.
   Texture texture(const Node& node);
   /// The texture of parameter `name` if its values are in range; else a warning, and one whose values are clamped. What was
   /// written by hand is an error there.
-  Texture within_range(Parameters& p, std::string_view name, const Texture& texture, double min, double max);
+  Texture within_range(Parameters& p, std::string_view name, const Texture& texture, const Range& range);
   /// Stores a texture's parameters and returns the word that leads to them.
-  TextureWord add_texture(TextureKind kind, const ParameterBlock& parameters);
+  TextureWord add_texture(TextureKind kind, std::span<const float> block);
   ImageStore& images() { return images_; }
   MeshAttributes& attributes() { return attributes_; }
   /// Stores floats among the scene's parameters and returns their offset.
   std::uint32_t add_parameters(std::span<const float> values);
   /// Stores a model's parameters and returns the word that leads to them.
-  MaterialWord add_material(BsdfKind kind, const ParameterBlock& parameters);
+  MaterialWord add_material(BsdfKind kind, std::span<const float> block);
   /// Says that models look at texture coordinates or tangents, which surface points then have.
   void need_uv() {
     tables().needs_uv = true;
@@ -139,13 +73,6 @@ class Builder {
   std::uint32_t add_light(const LightRecord& light, const LightPower& power);
   /// A light that surrounds the scene, of which there may be one.
   void add_environment(const Node& node, const LightRecord& light, const LightPower& power);
-  /// The records of a shape's primitives, until the next shape is added.
-  std::span<SurfaceRecord> surfaces_of(std::uint32_t shape) { return geometry_.surfaces_of(shape); }
-  void set_light(std::uint32_t shape, std::uint32_t primitive, std::uint32_t light) {
-    geometry_.set_light(shape, primitive, light);
-  }
-  bool is_sphere(std::uint32_t shape) const { return geometry_.is_sphere(shape); }
-  bool is_analytic(std::uint32_t shape) const { return geometry_.is_analytic(shape); }
   /// The group of shapes that a `shapegroup` node is; one that several instances refer to is compiled once.
   std::uint32_t shape_group(const Node& node);
   GeometryBuilder& geometry() { return geometry_; }
@@ -167,14 +94,14 @@ class Builder {
   /// Complains about media, textures and volumes by name; for nodes whose children's names mean nothing yet.
   void refuse_kinds_to_come(Parameters& parameters);
   /// The texture of that name, if it has one, within its range.
-  std::optional<Texture> texture_of(Parameters& p, std::string_view name, double min, double max);
+  std::optional<Texture> texture_of(Parameters& p, std::string_view name, const Range& range);
   /// Integrator and sensor; `reserve`: see measure_film.
   void compile_frame(Parameters& scene, const std::set<const Node*>& inside, const ViewOptions& view, bool reserve);
   void compile_sensor(Parameters& scene, const ViewOptions& view, bool reserve);
   /// The sensor that is chosen, with what `view` says otherwise of it; null if there is none, or after a complaint.
   std::shared_ptr<const Node> sensor_node(Parameters& scene, const ViewOptions& view);
   void compile_sampler(Parameters& sensor, const ViewOptions& view);
-  void compile_camera(Parameters& sensor, CameraRecord (*compile)(Parameters&, Builder&, const FilmSettings&));
+  void compile_camera(Parameters& sensor, CompileSensor* compile);
   /// That of a scene without a sensor, once its bounds are known.
   void compile_default_camera();
   /// `place`: where the film's size comes from.
@@ -182,7 +109,7 @@ class Builder {
   /// How much memory film and image take; `reserve`: which stays free for them while the scene is loaded.
   void measure_film(const SourceLocation& place, bool reserve);
   void compile_shape(const Node& node);
-  void compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compile)(Parameters&, Builder&));
+  void compile_shape(Parameters& p, CompileShape* compile);
   Material material_of(Parameters& shape);
   /// A warning if the textures of a shape without texture coordinates look them up.
   void want_texcoords(const Node& shape);
@@ -202,11 +129,11 @@ class Builder {
     const std::optional<std::string>& plugin;
     const std::optional<Node>& node;
   };
-  template <class Function>
-  auto compile_node(const Node& node, std::span<const Plugin<Function>> table, bool tolerates = false);
-  template <class Function>
+  template <class Function, class... Tools>
+  auto compile_node(const Node& node, std::span<const Plugin<Function>> table, bool tolerates, Tools&&... tools);
+  template <class Function, class... Tools>
   auto compile_chosen(const Node::Child* child, const char* kind, const char* fallback, const Replacement& replacement,
-                      std::span<const Plugin<Function>> table, std::string& plugin_name);
+                      std::span<const Plugin<Function>> table, std::string& plugin_name, Tools&&... tools);
 
   const Description& description_;
   const FileSystem& files_;

@@ -49,12 +49,13 @@ void take_film_and_sampler(const Node& from, Node& to) {
 }  // namespace
 
 /// Calls the node's plugin. What of the node it does not ask for is an error, unless `tolerates` it.
-template <class Function>
-auto Builder::compile_node(const Node& node, std::span<const Plugin<Function>> table, bool tolerates) {
-  decltype(table[0].compile(std::declval<Parameters&>(), *this)) settings;
+template <class Function, class... Tools>
+auto Builder::compile_node(const Node& node, std::span<const Plugin<Function>> table, bool tolerates,
+                           Tools&&... tools) {
+  decltype(table[0].compile(std::declval<Parameters&>(), tools...)) settings;
   if (const auto* plugin = find_plugin(table, node, diagnostics_)) {
     Parameters p = parameters(node);
-    settings = plugin->compile(p, *this);
+    settings = plugin->compile(p, tools...);
     if (!tolerates) p.finish();
     describe(node, {});
   }
@@ -68,7 +69,7 @@ IntegratorSettings Builder::integrator(const Node& node) {
                        fmt::format("up to {} inside each other", kMaxIntegratorDepth));
   } else {
     ++integrator_depth_;
-    settings = compile_node(node, integrator_plugins());
+    settings = compile_node(node, integrator_plugins(), /*tolerates=*/false, Integrators(*this));
     --integrator_depth_;
   }
   return settings;
@@ -78,15 +79,15 @@ FilterRecord Builder::rfilter(Parameters& film) {
   Node default_filter("rfilter", "gaussian");
   default_filter.location = film.node().location;
   const Node::Child* child = film.child("rfilter");
-  return compile_node(child ? *child->node : default_filter, rfilter_plugins());
+  return compile_node(child ? *child->node : default_filter, rfilter_plugins(), /*tolerates=*/false, tables().filter);
 }
 
 /// Compiles `child`, or the plugin `fallback` if there is none. A plugin that replaces another takes the node's parameters,
 /// except for those it does not know.
-template <class Function>
+template <class Function, class... Tools>
 auto Builder::compile_chosen(const Node::Child* child, const char* kind, const char* fallback,
                              const Replacement& replacement, std::span<const Plugin<Function>> table,
-                             std::string& plugin_name) {
+                             std::string& plugin_name, Tools&&... tools) {
   Node node;
   if (replacement.node) {
     node = *replacement.node;
@@ -102,7 +103,7 @@ auto Builder::compile_chosen(const Node::Child* child, const char* kind, const c
     node.plugin_location = {};
   }
   plugin_name = node.plugin;
-  return compile_node(node, table, /*tolerates=*/replaced);
+  return compile_node(node, table, /*tolerates=*/replaced, std::forward<Tools>(tools)...);
 }
 
 FilmSettings Builder::film(Parameters& sensor, const ViewOptions& view, SourceLocation& place) {
@@ -114,7 +115,8 @@ FilmSettings Builder::film(Parameters& sensor, const ViewOptions& view, SourceLo
   const auto* plugin = find_plugin(film_plugins(), node, diagnostics_);
   if (!plugin) return settings;
   Parameters p = parameters(node);
-  settings = plugin->compile(p, *this);
+  Films films(*this);
+  settings = plugin->compile(p, films);
   p.finish();
 
   // Another size shows the same picture, and a crop window the same part of it.
@@ -229,8 +231,9 @@ void Builder::compile_sensor(Parameters& scene, const ViewOptions& view, bool re
   if (!default_sensor_) compile_camera(p, plugin->compile);
 }
 
-void Builder::compile_camera(Parameters& sensor, CameraRecord (*compile)(Parameters&, Builder&, const FilmSettings&)) {
-  tables().camera = compile(sensor, *this, tables().film);
+void Builder::compile_camera(Parameters& sensor, CompileSensor* compile) {
+  Sensors sensors(*this);
+  tables().camera = compile(sensor, sensors, tables().film);
   view_place_ = sensor.where("far_clip");
   refuse_kinds_to_come(sensor);
   sensor.finish();
@@ -255,7 +258,7 @@ void Builder::compile_frame(Parameters& scene, const std::set<const Node*>& insi
                             bool reserve) {
   tables().integrator =
       compile_chosen(integrator_of_scene(scene, inside), "integrator", "path", {view.integrator, view.integrator_node},
-                     integrator_plugins(), scene_.info.integrator);
+                     integrator_plugins(), scene_.info.integrator, Integrators(*this));
   compile_sensor(scene, view, reserve);
   scene_.frame_items = scene_.info.items.size();
 }

@@ -66,19 +66,15 @@ void give_rewound_texcoords(MeshData& mesh) {
 
 }  // namespace
 
-double read_sampling_weight(Parameters& emitter) {
-  constexpr double kMaxWeight = 1e12;
-  return emitter.number("sampling_weight", 1, 0, kMaxWeight);
-}
-
 void Builder::compile_emitter(const Node& node, std::uint32_t shape) {
   const auto* plugin = find_plugin(emitter_plugins(), node, diagnostics_);
   if (!plugin) return;
   Parameters p = parameters(node);
   sampling_weight_ = read_sampling_weight(p);
   const std::size_t before = tables().lights.size();
+  Lights lights(*this);
   within_memory(node.location, "emitter " + quoted(node.plugin), diagnostics_,
-                [&] { plugin->compile(p, *this, shape); });
+                [&] { plugin->compile(p, lights, shape); });
   p.finish();
   if (sampling_weight_ > 0 || tables().lights.size() == before) return;
   if (is_delta(tables().lights.back().kind) || !tables().integrator.finds_lights()) {
@@ -95,9 +91,10 @@ Material Builder::material_of(Parameters& shape) {
   if (const Node::Child* child = shape.child("bsdf")) return bsdf(*child->node);
   // Mitsuba's material for shapes that name none: lights are black, others grey.
   if (shape.child("emitter") != nullptr) return {};
-  if (!default_material_)
-    default_material_ =
-        Material{.front = add_material(BsdfKind::diffuse, ParameterBlock().add(ColorParameter{glm::dvec3(0.5)}))};
+  if (!default_material_) {
+    Materials materials(*this);
+    default_material_ = default_material(materials);
+  }
   return *default_material_;
 }
 
@@ -140,10 +137,11 @@ void Builder::tell_what_is_beyond_view() {
                        fmt::format("a far_clip of at least {:.3g}", farthest_));
 }
 
-void Builder::compile_shape(Parameters& p, std::optional<ShapeGeometry> (*compile)(Parameters&, Builder&)) {
+void Builder::compile_shape(Parameters& p, CompileShape* compile) {
   const Node& node = p.node();
+  Shapes shapes(*this);
   // An empty shape stands in for a broken one, so that its emitter's complaints are heard too.
-  ShapeGeometry geometry = compile(p, *this).value_or(ShapeGeometry{});
+  ShapeGeometry geometry = compile(p, shapes).value_or(ShapeGeometry{});
   if (!geometry.of_shapes) {
     const Material material = material_of(p);
     const Node::Child* emitter = p.child("emitter");

@@ -7,12 +7,8 @@
 
 namespace norrsken {
 
-ScalarParameter Builder::share(Parameters& p, std::string_view name, double fallback) {
-  if (p.texture(name)) return scalar(p, name, fallback, 0, 1);
-  return {p.mean_clamped(name, fallback, 0, 1)};
-}
-
-Texture Builder::within_range(Parameters& p, std::string_view name, const Texture& texture, double min, double max) {
+Texture Builder::within_range(Parameters& p, std::string_view name, const Texture& texture, const Range& range) {
+  const double min = range.min, max = range.max;
   if (!(texture.min < min || texture.max > max)) return texture;
   const std::string found = fmt::format("'{}' has values from {:g} to {:g}", name, texture.min, texture.max);
   if (!texture.clamped) {

@@ -1,7 +1,7 @@
 // What a camera and a projector share: how wide they see, and how they may be placed.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <glm/matrix.hpp>
@@ -18,16 +18,31 @@ namespace norrsken {
 /// 36 x 24 mm.
 inline const double kFilmDiagonal = std::hypot(36.0, 24.0);
 
+enum class Span { x, y, diagonal, smaller, larger };
+inline constexpr ChoiceParameter<Span> kFovAxis{.name = "fov_axis",
+                                                .words = {{{"x", Span::x},
+                                                           {"y", Span::y},
+                                                           {"diagonal", Span::diagonal},
+                                                           {"smaller", Span::smaller},
+                                                           {"larger", Span::larger}}},
+                                                .text = "the side of the picture that `fov` spans"};
+inline constexpr NumberParameter kFov{
+    .name = "fov", .fallback = 45, .range = {0, 180, Ends::open}, .unit = "degrees", .in_place_of = "focal_length"};
+inline constexpr TextParameter kFocalLength{
+    .name = "focal_length",
+    .fallback = "50mm",
+    .text = "the focal length that gives this picture on 35 mm film, measured along the diagonal"};
+
 /// Angle in radians along the film's diagonal.
 inline double focal_length_angle(Parameters& p) {
-  const std::string text = p.text("focal_length", "50mm");
+  const std::string text = p.read(kFocalLength);
   constexpr std::string_view kUnit = "mm";
   std::string_view length = text;
   if (length.ends_with(kUnit)) length.remove_suffix(kUnit.size());
   double millimetres = 0;
   const bool parsed = parse_number(trim(length), millimetres) == NumberStatus::ok;
   if (!parsed || millimetres < 1e-3 || millimetres > 1e6) {
-    p.error("focal_length", fmt::format("'focal_length' is {}", quoted(text)),
+    p.error(kFocalLength.name, fmt::format("'focal_length' is {}", quoted(text)),
             "a length from 0.001mm to 1000000mm, such as 50mm");
     millimetres = 50;
   }
@@ -36,23 +51,23 @@ inline double focal_length_angle(Parameters& p) {
 
 /// Half the image's width at distance 1, by `fov` and `fov_axis` or by `focal_length`; `aspect` is width over height.
 inline double half_width_of_view(Parameters& p, double aspect) {
-  std::string axis = p.choice("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"});
-  const double degrees = p.number("fov", 45, 0, 180, Ends::open);
+  Span axis = p.read(kFovAxis);
+  const double degrees = p.read(kFov);
   double angle = focal_length_angle(p);
-  if (!p.has("fov")) {
-    axis = "diagonal";
+  if (!p.has(kFov.name)) {
+    axis = Span::diagonal;
   } else {
     angle = glm::radians(degrees);
-    if (p.has("focal_length")) {
-      p.error("focal_length", fmt::format("{} '{}' has both 'fov' and 'focal_length'", p.node().kind, p.node().plugin),
-              "one of them");
+    if (p.has(kFocalLength.name)) {
+      p.error(kFocalLength.name,
+              fmt::format("{} '{}' has both 'fov' and 'focal_length'", p.node().kind, p.node().plugin), "one of them");
     }
   }
   const double half = std::tan(angle / 2);
-  if (axis == "smaller") axis = aspect > 1 ? "y" : "x";
-  if (axis == "larger") axis = aspect > 1 ? "x" : "y";
-  if (axis == "y") return half * aspect;
-  if (axis == "diagonal") return half / std::sqrt(1 + 1 / (aspect * aspect));
+  if (axis == Span::smaller) axis = aspect > 1 ? Span::y : Span::x;
+  if (axis == Span::larger) axis = aspect > 1 ? Span::x : Span::y;
+  if (axis == Span::y) return half * aspect;
+  if (axis == Span::diagonal) return half / std::sqrt(1 + 1 / (aspect * aspect));
   return half;
 }
 

@@ -9,37 +9,14 @@
 #include <span>
 #include <vector>
 
-#include "compile/analytic_shape.h"
-#include "formats/mesh_data.h"
+#include "compile/material.h"
+#include "compile/shape_geometry.h"
 #include "norrsken/diagnostics.h"
 #include "norrsken/scene.h"
 #include "scene/description.h"
 #include "tables/scene_tables.h"
 
 namespace norrsken {
-
-/// The two sides of a surface; `front` is the one that the normal points to.
-struct Material {
-  MaterialWord front = make_material(BsdfKind::absorb, 0);
-  MaterialWord back = make_material(BsdfKind::absorb, 0);
-  std::uint32_t choices = 0;  ///< the most that a way from here to a model has
-  std::uint32_t maps = 0;     ///< the same of bump and normal maps
-  Variation variation = Variation::none;
-};
-
-/// A shape in world space. With `normals` the mesh is smooth, without it is flat.
-struct ShapeGeometry {
-  struct Sphere {
-    glm::dvec3 center;
-    double radius;
-    bool flip_normals;
-    std::uint32_t object_from_world = kNone;  ///< as in ShapeRecord
-  };
-  MeshData mesh;
-  std::vector<Sphere> spheres;
-  std::optional<AnalyticShape> analytic;
-  bool of_shapes = false;  ///< made of other shapes, which the builder has already; all else is empty
-};
 
 /// A placement in single precision.
 Placement make_placement(const glm::dmat4& world_from_local);

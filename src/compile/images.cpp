@@ -71,13 +71,13 @@ std::optional<StoredImage> ImageStore::read(const std::string& path, bool raw, c
   return store(image, raw, path, named_at);
 }
 
-std::optional<StoredImage> ImageStore::of(Parameters& p, bool raw) {
+std::optional<StoredImage> ImageStore::of(Parameters& p, const FileParameter& filename, bool raw) {
   if (!p.has("image")) {
-    const std::string filename = p.file("filename");
-    return filename.empty() ? std::nullopt : load(filename, raw, p.where("filename"));
+    const std::string path = p.read(filename);
+    return path.empty() ? std::nullopt : load(path, raw, p.where(filename.name));
   }
   const std::shared_ptr<const Image> image = p.image("image");
-  if (p.has("filename")) p.error("image", "both 'image' and 'filename' are given", "one of them");
+  if (p.has(filename.name)) p.error("image", "both 'image' and 'filename' are given", "one of them");
   if (!image) return std::nullopt;
   if (const auto known = given_images_.find(image.get()); known != given_images_.end()) return known->second;
   std::optional<StoredImage>& stored = given_images_[image.get()];

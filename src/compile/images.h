@@ -36,9 +36,9 @@ class ImageStore {
   ImageStore(const FileSystem& files, Diagnostics& diagnostics, SceneTables& tables)
       : files_(files), diagnostics_(diagnostics), tables_(tables) {}
 
-  /// The image of a plugin's node: the file that its parameter `filename` names, or the `image` that a program gave it,
+  /// The image of a plugin's node: the file that its parameter names, or the `image` that a program gave it,
   /// whose numbers are taken as they are. Empty after a complaint.
-  std::optional<StoredImage> of(Parameters& p, bool raw);
+  std::optional<StoredImage> of(Parameters& p, const FileParameter& filename, bool raw);
   /// The image in a file, in linear sRGB; `raw`: with the numbers that are stored. Empty after a complaint.
   std::optional<StoredImage> load(const std::string& path, bool raw, const SourceLocation& named_at);
   /// A copy of an image of floats with its values brought into a range. Empty after a complaint.

@@ -12,28 +12,23 @@
 namespace norrsken {
 namespace {
 
-/// Lines of the header blocks of the sources, which docs/scenes.md is made of too; `parameter` is empty for the plugin itself.
-struct PluginText {
-  std::string_view kind, plugin, parameter, unit, text;
+/// What each plugin is, from the header blocks of the sources.
+struct PluginTitle {
+  std::string_view kind, plugin, text;
 };
-constexpr PluginText kTexts[] = {
-#include "compile/plugin_texts.inc"
+constexpr PluginTitle kTitles[] = {
+#include "compile/plugin_titles.inc"
 };
 
-void add_texts(PluginInfo& plugin) {
-  for (const PluginText& line : kTexts) {
-    if (line.kind != plugin.kind || line.plugin != plugin.name) continue;
-    if (line.parameter.empty()) plugin.text = line.text;
-    const auto parameter = std::ranges::find(plugin.parameters, line.parameter, &PluginParameter::name);
-    if (parameter == plugin.parameters.end()) continue;
-    parameter->unit = line.unit;
-    parameter->text = line.text;
-  }
+void add_title(PluginInfo& plugin) {
+  const auto* found = std::ranges::find_if(
+      kTitles, [&](const PluginTitle& line) { return line.kind == plugin.kind && line.plugin == plugin.name; });
+  if (found != std::end(kTitles)) plugin.text = found->text;
 }
 
-/// `ask(compile, parameters, builder)` calls a plugin of the family. It is given nothing, so that it asks for everything;
-/// its complaints about that are of no interest.
-template <class Function, class Ask>
+/// `ask(compile, parameters, tools)` calls a plugin of the family. It is given nothing, so that it asks for everything; its
+/// complaints about that are of no interest.
+template <class Tools, class Function, class Ask>
 void add_family(const char* kind, std::span<const Plugin<Function>> table, const Ask& ask,
                 std::vector<PluginInfo>& plugins) {
   for (const Plugin<Function>& plugin : table) {
@@ -42,11 +37,12 @@ void add_family(const char* kind, std::span<const Plugin<Function>> table, const
     const FileSystem files;
     Diagnostics unheard;
     Builder builder(description, files, unheard);
+    Tools tools(builder);
     PluginInfo info{kind, node.plugin, {}, {}, {}};
     Parameters p(node, description, files, unheard);
     p.record(info);
-    ask(plugin.compile, p, builder);
-    add_texts(info);
+    ask(plugin.compile, p, tools);
+    add_title(info);
     plugins.push_back(std::move(info));
   }
 }
@@ -55,33 +51,40 @@ void add_family(const char* kind, std::span<const Plugin<Function>> table, const
 
 std::vector<PluginInfo> plugins() {
   std::vector<PluginInfo> all;
-  const auto ask = [](auto* compile, Parameters& p, Builder& builder) { compile(p, builder); };
-  add_family("integrator", integrator_plugins(), ask, all);
+  const auto ask = [](auto* compile, Parameters& p, auto& tools) { compile(p, tools); };
   FilmSettings film;
   film.width = film.full_width = film.height = film.full_height = 1;
-  add_family(
+  add_family<Integrators>("integrator", integrator_plugins(), ask, all);
+  add_family<Sensors>(
       "sensor", sensor_plugins(),
-      [&](auto* compile, Parameters& p, Builder& builder) {
-        compile(p, builder, film);
+      [&](auto* compile, Parameters& p, Sensors& sensors) {
+        compile(p, sensors, film);
         for (const char* kind : {"film", "sampler"}) p.children(kind);
       },
       all);
-  add_family("film", film_plugins(), ask, all);
-  add_family("rfilter", rfilter_plugins(), ask, all);
-  add_family("sampler", sampler_plugins(), ask, all);
-  add_family("bsdf", bsdf_plugins(), ask, all);
-  add_family("texture", texture_plugins(), ask, all);
-  add_family(
-      "emitter", emitter_plugins(),
-      [](auto* compile, Parameters& p, Builder& builder) {
-        read_sampling_weight(p);
-        compile(p, builder, kNone);
+  add_family<Films>("film", film_plugins(), ask, all);
+  add_family<PluginTools>(
+      "rfilter", rfilter_plugins(),
+      [](auto* compile, Parameters& p, PluginTools&) {
+        Array<float> table;
+        compile(p, table);
       },
       all);
-  add_family(
+  add_family<PluginTools>(
+      "sampler", sampler_plugins(), [](auto* compile, Parameters& p, PluginTools&) { compile(p); }, all);
+  add_family<Materials>("bsdf", bsdf_plugins(), ask, all);
+  add_family<Textures>("texture", texture_plugins(), ask, all);
+  add_family<Lights>(
+      "emitter", emitter_plugins(),
+      [](auto* compile, Parameters& p, Lights& lights) {
+        read_sampling_weight(p);
+        compile(p, lights, kNone);
+      },
+      all);
+  add_family<Shapes>(
       "shape", shape_plugins(),
-      [](auto* compile, Parameters& p, Builder& builder) {
-        const std::optional<ShapeGeometry> geometry = compile(p, builder);
+      [](auto* compile, Parameters& p, Shapes& shapes) {
+        const std::optional<ShapeGeometry> geometry = compile(p, shapes);
         if (geometry && geometry->of_shapes) return;
         for (const char* kind : {"bsdf", "emitter"}) p.children(kind);
       },

@@ -4,7 +4,7 @@
 
 namespace norrsken {
 
-IntegratorSettings compile_integrator_depth(Parameters&, Builder&) {
+IntegratorSettings compile_integrator_depth(Parameters&, Integrators&) {
   IntegratorSettings settings;
   settings.distance = true;
   return settings;

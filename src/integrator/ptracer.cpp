@@ -3,24 +3,18 @@
 // Both have the same image in the limit, except that mirrors and smooth glass before the camera stay black: no path
 // from a light can be made to reach the camera by way of them.
 //
-// Parameters
-//   max_depth         integer (default -1): 1 shows emitters only, 2 adds direct light, -1 has no limit
-//   bounces           integer, in place of `max_depth`: one less than that
-//   rr_depth          integer, from 1 (default 5): the depth from which Russian roulette ends paths
-//   hide_emitters     boolean (default false): the camera does not see the emitters themselves
 // Departures: emitters that the camera sees are sampled by its own rays, which leaves no noise in them.
 //
 // Limits: with `flip_invalid_normals` (normalmap, bumpmap) normals that turn away are folded back by where the light is, as in
 // Mitsuba, where `path` folds them by the viewer. Where many are folded the two have different images, which a warning
 // says: 1.3 to 1.5 times as bright on a sphere with slopes of up to 80 degrees, there and here.
-#include "compile/plugins.h"
 #include "integrator/integrator_host.h"
 
 namespace norrsken {
 
-IntegratorSettings compile_integrator_ptracer(Parameters& p, Builder&) {
+IntegratorSettings compile_integrator_ptracer(Parameters& p, Integrators&) {
   IntegratorSettings settings = read_path_lengths(p);
-  settings.hide_emitters = p.boolean("hide_emitters", false);
+  settings.hide_emitters = p.read(kHideEmitters);
   settings.from_lights = true;
   return settings;
 }

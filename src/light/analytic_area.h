@@ -11,15 +11,19 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Parameters: the texture's word, the shape's index in `analytics`.
 struct AnalyticAreaLight {
+  struct Stored {
+    TextureWord texture;
+    std::uint32_t analytic;  ///< the shape's index in `analytics`
+  };
+
   struct Place {
     Affine world_from_local, local_from_world;
     UInt kinds;
     Float side;  ///< -1 for flipped normals
   };
   static inline Place load(const SceneView& scene, Light light, Mask active) {
-    const UInt shape = gather_uint(scene.parameters + 1, light.parameters, active);
+    const UInt shape = gather_slot(scene.parameters, &Stored::analytic, light.parameters, active);
     const Mask flipped = gather(scene.analytics, &AnalyticRecord::flip_normals, shape, active) != 0u;
     return {gather(scene.analytics, &AnalyticRecord::place, &Placement::world_from_local, shape, active),
             gather(scene.analytics, &AnalyticRecord::place, &Placement::local_from_world, shape, active),

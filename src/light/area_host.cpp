@@ -13,6 +13,7 @@
 #include <span>
 
 #include "light/light_host.h"
+#include "light/models.h"
 #include "shape/models.h"
 
 namespace norrsken {
@@ -112,14 +113,18 @@ struct FlatMesh {
 
 /// What FlatAreaLight's texture and normals ask for: see src/light/flat_area.h. `apex` is the corner that the light
 /// begins with.
-std::uint32_t add_parameters(Builder& builder, const FlatMesh& mesh, std::size_t triangle, std::size_t apex) {
+std::uint32_t store(Lights& lights, const FlatMesh& mesh, std::size_t triangle, std::size_t apex) {
   const auto& uv = mesh.texcoords[triangle];
   const Texcoord &origin = uv[apex], &left = uv[(apex + 1) % 3], &right = uv[(apex + 2) % 3];
-  ParameterBlock block;
-  block.add_word(mesh.texture).add(origin[0]).add(origin[1]);
-  for (const Texcoord& c : {left, right}) block.add(c[0] - origin[0]).add(c[1] - origin[1]);
-  block.add_word(mesh.first_primitive + static_cast<std::uint32_t>(triangle)).add_word(mesh.shape);
-  return builder.add_parameters(block.values());
+  return lights.store(isa_host::FlatAreaStored{.texture = mesh.texture,
+                                               .u = static_cast<float>(origin[0]),
+                                               .v = static_cast<float>(origin[1]),
+                                               .left_u = static_cast<float>(left[0] - origin[0]),
+                                               .left_v = static_cast<float>(left[1] - origin[1]),
+                                               .right_u = static_cast<float>(right[0] - origin[0]),
+                                               .right_v = static_cast<float>(right[1] - origin[1]),
+                                               .primitive = mesh.first_primitive + static_cast<std::uint32_t>(triangle),
+                                               .shape = mesh.shape});
 }
 
 /// Whether the texture coordinates of two triangles that make a parallelogram are one map of it: `apex` is the first's
@@ -138,14 +143,14 @@ bool is_one_map(const FlatMesh& mesh, std::size_t first, std::size_t apex, std::
   return true;
 }
 
-std::vector<AreaLight> flat_lights(Builder& builder, const FlatMesh& mesh) {
+std::vector<AreaLight> flat_lights(Lights& lights, const FlatMesh& mesh) {
   std::span<const Corners> triangles = mesh.triangles;
   // Three nodes of the tree of edges for each triangle, and the light's record with its list of primitives.
   constexpr std::size_t kNodeBytes = sizeof(std::pair<const Edge, std::uint32_t>) + 6 * sizeof(void*);
   const MemoryReservation working(triangles.size() * (3 * kNodeBytes + sizeof(AreaLight) + 4 * sizeof(void*)));
   const auto edges = edges_of(triangles);
   std::vector<bool> taken(triangles.size(), false);
-  std::vector<AreaLight> lights;
+  std::vector<AreaLight> found;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     if (taken[i]) continue;
     AreaLight light;
@@ -165,11 +170,11 @@ std::vector<AreaLight> flat_lights(Builder& builder, const FlatMesh& mesh) {
       first_corner = k;
       taken[neighbour->second] = true;
     }
-    if (mesh.texture != 0 || mesh.smooth) light.record.parameters = add_parameters(builder, mesh, i, first_corner);
+    if (mesh.texture != 0 || mesh.smooth) light.record.parameters = store(lights, mesh, i, first_corner);
     light.bounds = flat_bounds(light.record);
-    lights.push_back(std::move(light));
+    found.push_back(std::move(light));
   }
-  return lights;
+  return found;
 }
 
 AreaLight sphere_light(const SurfaceRecord& sphere, bool flip_normals, std::uint32_t primitive) {
@@ -216,55 +221,54 @@ bool can_be_sampled(AnalyticKind kind) {
 }
 
 /// The one light of a shape that may have many primitives.
-std::vector<AreaLight> analytic_lights(Builder& builder, std::span<const SurfaceRecord> surfaces, TextureWord texture) {
+std::vector<AreaLight> analytic_lights(Lights& lights, std::span<const SurfaceRecord> surfaces, TextureWord texture) {
   if (surfaces.empty()) return {};
   const auto analytic = std::bit_cast<std::uint32_t>(surfaces[0].geometry[0]);
   AreaLight light;
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) light.primitives.push_back(i);
   light.record.kind = LightKind::analytic;
-  light.record.area = builder.tables().analytics[analytic].area;
-  light.sampled = can_be_sampled(builder.tables().analytics[analytic].kind);
-  light.bounds = analytic_bounds(builder.tables().analytics[analytic]);
-  light.record.parameters = builder.add_parameters(ParameterBlock().add_word(texture).add_word(analytic).values());
+  light.record.area = lights.tables().analytics[analytic].area;
+  light.sampled = can_be_sampled(lights.tables().analytics[analytic].kind);
+  light.bounds = analytic_bounds(lights.tables().analytics[analytic]);
+  light.record.parameters = lights.store(isa_host::AnalyticAreaLight::Stored{.texture = texture, .analytic = analytic});
   return {light};
 }
 
 }  // namespace
 
-void refuse_as_beginning(const AreaLight& light, const Parameters& emitter, Builder& builder) {
-  if (light.sampled || !builder.paths_begin_at_lights()) return;
-  builder.diagnostics().error(
+void refuse_as_beginning(const AreaLight& light, const Parameters& emitter, Lights& lights) {
+  if (light.sampled || !lights.paths_begin_at_lights()) return;
+  emitter.diagnostics().error(
       emitter.node().plugin_location,
       "paths cannot begin at the shape around this emitter, whose surface has no way to be sampled, as those of "
       "integrator 'ptracer' do",
       "another integrator, or another shape");
 }
 
-std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, TextureWord texture, bool along_normals) {
-  const auto surfaces = builder.surfaces_of(shape);
-  const ShapeRecord& record = builder.tables().shapes[shape];
-  if (builder.is_analytic(shape)) return analytic_lights(builder, surfaces, texture);
-  if (builder.is_sphere(shape)) {
-    std::vector<AreaLight> lights;
+std::vector<AreaLight> area_lights(Lights& lights, std::uint32_t shape, TextureWord texture, bool along_normals) {
+  const auto surfaces = lights.surfaces_of(shape);
+  const ShapeRecord& record = lights.tables().shapes[shape];
+  if (lights.is_analytic(shape)) return analytic_lights(lights, surfaces, texture);
+  if (lights.is_sphere(shape)) {
+    std::vector<AreaLight> found;
     for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
-      lights.push_back(sphere_light(surfaces[i], record.flip_normals != 0, i));
+      found.push_back(sphere_light(surfaces[i], record.flip_normals != 0, i));
       if (texture == 0) continue;
-      lights.back().record.parameters =
-          builder.add_parameters(ParameterBlock().add_word(texture).add_word(shape).values());
+      found.back().record.parameters = lights.store(isa_host::SphereAreaStored{.texture = texture, .shape = shape});
     }
-    return lights;
+    return found;
   }
   const bool smooth = along_normals && record.smooth != 0, has_texcoords = record.has_texcoords != 0;
   FlatMesh mesh{{}, {}, record.first_primitive, shape, texture, smooth, !smooth};
   // Attributes belong to triangles, and so do coordinates that are barycentric.
   if (texture != 0) mesh.merge = mesh.merge && has_texcoords && texture_kind(texture) != TextureKind::mesh_attribute;
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
-    mesh.triangles.push_back(corners_of(builder.tables(), record.first_primitive + i));
+    mesh.triangles.push_back(corners_of(lights.tables(), record.first_primitive + i));
     if (texture != 0 || smooth) {
-      mesh.texcoords.push_back(texcoords_of(builder.tables(), record.first_primitive + i, has_texcoords));
+      mesh.texcoords.push_back(texcoords_of(lights.tables(), record.first_primitive + i, has_texcoords));
     }
   }
-  return flat_lights(builder, mesh);
+  return flat_lights(lights, mesh);
 }
 
 }  // namespace norrsken

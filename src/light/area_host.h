@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "compile/builder.h"
+#include "compile/lights.h"
 
 namespace norrsken {
 
@@ -19,10 +19,10 @@ struct AreaLight {
 /// way, and the corners across that edge mirror each other in its middle, to within the rounding of their coordinates.
 /// With a `texture` as their radiance, texture coordinates count as corners do. A shape with a formula is one light.
 /// `along_normals`: the lights are to know the vertices' normals, so triangles of smooth meshes stay apart.
-std::vector<AreaLight> area_lights(Builder& builder, std::uint32_t shape, TextureWord texture,
+std::vector<AreaLight> area_lights(Lights& lights, std::uint32_t shape, TextureWord texture,
                                    bool along_normals = false);
 
 /// An error for emitters of lights that only rays find, if paths are to begin at them.
-void refuse_as_beginning(const AreaLight& light, const Parameters& emitter, Builder& builder);
+void refuse_as_beginning(const AreaLight& light, const Parameters& emitter, Lights& lights);
 
 }  // namespace norrsken

@@ -1,31 +1,41 @@
 // envmap: an image in latitude-longitude format around the scene.
-//
-// Parameters
-//   filename          string (required): PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR, at least 2 x 3 pixels.
-//                     Programs may give an `image` in its place
-//   scale             number, at least 0 (default 1): factor on the image's radiance
-//   to_world          transform that keeps shapes (default identity). The local y axis is up, where the image's first
-//                     row is; its first and last column are at -z, its middle one is at +z, and columns to
-//                     the left of the middle are towards +x
-//   mis_compensation  boolean (default false): light sampling leaves what is darker than the mean to the directions that
-//                     surfaces sample, which can reduce noise; of effect only where both compete (path, and direct with
-//                     samples of both)
-#include <fmt/format.h>
+#include "light/envmap.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <numbers>
 
 #include "color/srgb.h"
 #include "compile/field_of_view.h"
-#include "compile/plugins.h"
+#include "compile/images.h"
 #include "light/light_host.h"
 
 namespace norrsken {
 namespace {
+
+constexpr FileParameter kFilename{
+    .name = "filename",
+    .text =
+        "PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR, at least 2 x 3 pixels. Programs may give an `image` in its "
+        "place"};
+constexpr NumberParameter kScale{
+    .name = "scale", .fallback = 1, .range = {0, kMaxEmission}, .text = "factor on the image's radiance"};
+constexpr TransformParameter kToWorld{
+    .name = "to_world",
+    .text =
+        "it keeps shapes. The local y axis is up, where the image's first row is; its first and last column are at -z, "
+        "its middle one is at +z, and columns to the left of the middle are towards +x"};
+constexpr BooleanParameter kMisCompensation{
+    .name = "mis_compensation",
+    .text =
+        "light sampling leaves what is darker than the mean to the directions that surfaces sample, which can reduce "
+        "noise; of effect only where both compete (path, and direct with samples of both)"};
 
 constexpr std::size_t kMaxTexels = std::size_t{1} << 31;
 
@@ -91,9 +101,10 @@ double compensation_of(const StoredImage& image, const float* texels) {
   return mean - least > 0.01 * mean ? mean : 0;
 }
 
+using Stored = isa_host::EnvmapEnvironment::Stored;
+
 /// Writes the distributions and the kernel's parameters; returns the mean radiance over all directions.
-glm::dvec3 write_map(const StoredImage& image, bool compensate, SceneTables& tables, ParameterBlock& block) {
-  auto& texels = tables.texels;
+glm::dvec3 write_map(const StoredImage& image, bool compensate, Array<float>& texels, Stored& stored) {
   const std::uint32_t first = float_texels(image, texels);
   const std::size_t width = image.width, rows = image.height - std::size_t{1};
   const auto row_guide = static_cast<std::uint32_t>(std::bit_floor(rows)), column_guide = std::bit_floor(image.width);
@@ -129,51 +140,58 @@ glm::dvec3 write_map(const StoredImage& image, bool compensate, SceneTables& tab
   double weight = 0;
   for (const double w : row_weights) weight += w;
   const double patch_count = static_cast<double>(width) * static_cast<double>(rows);
-  block.add_word(first).add_word(offset).add_word(static_cast<std::uint32_t>(columns_offset));
-  block.add_word(static_cast<std::uint32_t>(rows)).add_word(row_guide).add_word(image.width).add_word(column_guide);
-  block.add(weight > 0 ? patch_count / weight / (2 * std::numbers::pi * std::numbers::pi) : 0).add(darkest);
+  const double density_scale = weight > 0 ? patch_count / weight / (2 * std::numbers::pi * std::numbers::pi) : 0;
+  stored = {.texels = first,
+            .rows = offset,
+            .columns = static_cast<std::uint32_t>(columns_offset),
+            .row = {static_cast<std::uint32_t>(rows), row_guide},
+            .column = {image.width, column_guide},
+            .density_scale = static_cast<float>(density_scale),
+            .darkest = static_cast<float>(darkest)};
   return total / patch_count * (std::numbers::pi / 2);
 }
 
 }  // namespace
 
-void compile_emitter_envmap(Parameters& p, Builder& builder, std::uint32_t shape) {
+void compile_emitter_envmap(Parameters& p, Lights& lights, std::uint32_t shape) {
   refuse_shape(p, shape, "surrounds the scene");
-  const double scale = p.number("scale", 1, 0, kMaxEmission);
-  const glm::dmat4 to_world = p.transform("to_world");
-  const bool compensate = p.boolean("mis_compensation", false) && builder.paths_find_lights();
+  const double scale = p.read(kScale);
+  const glm::dmat4 to_world = p.read(kToWorld);
+  const bool compensate = p.read(kMisCompensation) && lights.paths_find_lights();
   glm::dmat3 axes(to_world);
   axes /= glm::length(axes[0]);
   if (!keeps_lengths(axes)) {
-    p.error("to_world", "'to_world' of emitter 'envmap' distorts", "translations, rotations and scales with one value");
+    p.error(kToWorld.name, "'to_world' of emitter 'envmap' distorts",
+            "translations, rotations and scales with one value");
   }
-  const std::optional<StoredImage> image = builder.images().of(p, /*raw=*/false);
+  const std::optional<StoredImage> image = lights.images().of(p, kFilename, /*raw=*/false);
   if (!image) return;
   const std::size_t pixels = std::size_t{image->width} * image->height;
   if (image->width < 2 || image->height < 3) {
-    p.error("filename", fmt::format("the image has {} x {} pixels", image->width, image->height), "at least 2 x 3");
+    p.error(kFilename.name, fmt::format("the image has {} x {} pixels", image->width, image->height), "at least 2 x 3");
     return;
   }
-  if (builder.tables().texels.size() + 6 * pixels >= kMaxTexels) {
-    p.error("filename", "the scene's images are too many or too large", fmt::format("{} texels in all", kMaxTexels));
+  if (lights.texels().size() + 6 * pixels >= kMaxTexels) {
+    p.error(kFilename.name, "the scene's images are too many or too large",
+            fmt::format("{} texels in all", kMaxTexels));
     return;
   }
   if (image->max * scale > kMaxEmission) {
-    p.error("filename", fmt::format("the image's radiance is up to {:g}", image->max * scale),
+    p.error(kFilename.name, fmt::format("the image's radiance is up to {:g}", image->max * scale),
             fmt::format("radiance up to {:g}", kMaxEmission));
     return;
   }
 
-  ParameterBlock block;
-  const glm::dvec3 mean = scale * write_map(*image, compensate, builder.tables(), block);
+  Stored stored;
+  const glm::dvec3 mean = scale * write_map(*image, compensate, lights.texels(), stored);
   LightRecord light{};
   light.kind = LightKind::envmap;
   set_values(light.emission, glm::dvec3(scale));
   set_axes(light, glm::transpose(axes));
-  light.parameters = builder.add_parameters(block.values());
-  builder.add_environment(p.node(), light, environment_power(glm::max(mean, glm::dvec3(0))));
-  builder.describe(p.node(), fmt::format("{} x {}, mean radiance {:.6g} {:.6g} {:.6g}", image->width, image->height,
-                                         mean.r, mean.g, mean.b));
+  light.parameters = lights.store(stored);
+  lights.add_environment(p.node(), light, environment_power(glm::max(mean, glm::dvec3(0))));
+  lights.describe(p.node(), fmt::format("{} x {}, mean radiance {:.6g} {:.6g} {:.6g}", image->width, image->height,
+                                        mean.r, mean.g, mean.b));
 }
 
 }  // namespace norrsken

@@ -20,12 +20,17 @@
 namespace norrsken::NORRSKEN_ISA {
 
 /// edge1, edge2 and normal are the local axes, `emission` the scale. There is one such light, so its parameters are
-/// scalars; src/light/envmap.cpp writes them.
+/// scalars; src/light/envmap.cpp fills them.
 struct EnvmapEnvironment {
   /// Cumulated probabilities of the cells of one dimension, the first 0, the last 1; behind them, for each number k of a
   /// power of two (and 1 more), the cell that k / guide_size falls into.
   struct Distribution {
     std::uint32_t cells, guide_size;
+  };
+  struct Stored {
+    std::uint32_t texels, rows, columns;  ///< offsets: of the two first among the texels; else as in Map
+    Distribution row, column;
+    float density_scale, darkest;
   };
   struct Map {
     const float* texels;    ///< 3 floats each
@@ -36,10 +41,11 @@ struct EnvmapEnvironment {
     float darkest;        ///< luminance up to which density is 0
   };
   static NORRSKEN_INLINE Map load(const SceneView& scene) {
-    const float* p = scene.parameters + scene.lights[scene.environment].parameters;
-    const auto word = [&](int k) { return std::bit_cast<std::uint32_t>(p[k]); };
-    return {
-        scene.texels + word(0), scene.texels + word(1), word(2), {word(3), word(4)}, {word(5), word(6)}, p[7], p[8]};
+    const float* first = scene.parameters + scene.lights[scene.environment].parameters;
+    std::array<float, sizeof(Stored) / sizeof(float)> block;
+    for (std::size_t i = 0; i < block.size(); ++i) block[i] = first[i];
+    const Stored s = std::bit_cast<Stored>(block);
+    return {scene.texels + s.texels, scene.texels + s.rows, s.columns, s.row, s.column, s.density_scale, s.darkest};
   }
 
   /// The four texels around a place, and where between them it is.

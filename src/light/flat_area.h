@@ -10,24 +10,33 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// The radiance of textured lanes. Parameters: the texture's word, uv at the first corner and its change along the two
-/// edges (6 floats), the primitive and the shape (words). Not inlined: few scenes need it, and every BSDF would repeat it.
+/// Of textured ones, and of those that shine along the normals of smooth meshes.
+struct FlatAreaStored {
+  TextureWord texture;
+  float u, v;                              ///< at the first corner
+  float left_u, left_v, right_u, right_v;  ///< how much they change along the two edges
+  std::uint32_t primitive, shape;
+};
+
+/// The radiance of textured lanes. Not inlined: few scenes need it, and every BSDF would repeat it.
 __attribute__((noinline)) inline Color flat_texture(const SceneView& scene, UInt parameters, Color emission,
                                                     UInt texture, Vec2f b, Mask textured) {
-  const auto number = [&](int k) { return gather(scene.parameters + k, parameters, textured); };
-  const auto word = [&](int k) { return gather_uint(scene.parameters + k, parameters, textured); };
-  const Vec2f uv{fma(b.x, number(3), fma(b.y, number(5), number(1))),
-                 fma(b.x, number(4), fma(b.y, number(6), number(2)))};
-  return select(textured, evaluate_texture(scene, texture, {uv, word(7), word(8), b}, textured), emission);
+  using Stored = FlatAreaStored;
+  const auto stored = [&](auto member) { return gather_slot(scene.parameters, member, parameters, textured); };
+  const Vec2f uv{fma(b.x, stored(&Stored::left_u), fma(b.y, stored(&Stored::right_u), stored(&Stored::u))),
+                 fma(b.x, stored(&Stored::left_v), fma(b.y, stored(&Stored::right_v), stored(&Stored::v)))};
+  const TexturePoint point{uv, stored(&Stored::primitive), stored(&Stored::shape), b};
+  return select(textured, evaluate_texture(scene, texture, point, textured), emission);
 }
 
 /// The shading normals of triangles of smooth meshes, with parameters as above; the light's first corner is the
 /// triangle's.
 __attribute__((noinline)) inline Vec3f flat_shading_normal(const SceneView& scene, UInt parameters, Vec3f normal,
                                                            Vec2f b, Mask active) {
-  const auto word = [&](int k) { return gather_uint(scene.parameters + k, parameters, active); };
-  const Mask smooth = active & (gather(scene.shapes, &ShapeRecord::smooth, word(8), active) != 0u);
-  const UInt first = word(7) * 3u;
+  const auto stored = [&](auto member) { return gather_slot(scene.parameters, member, parameters, active); };
+  const UInt shape = stored(&FlatAreaStored::shape);
+  const Mask smooth = active & (gather(scene.shapes, &ShapeRecord::smooth, shape, active) != 0u);
+  const UInt first = stored(&FlatAreaStored::primitive) * 3u;
   Vec3f normals[3];
   for (int k = 0; k < 3; ++k) {
     normals[k] = gather3(scene.normals, gather(scene.triangle_vertices + k, first, smooth) * 3u, smooth);

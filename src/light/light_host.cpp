@@ -1,11 +1,24 @@
 #include "light/light_host.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/matrix.hpp>
-#include <limits>
 
 namespace norrsken {
+namespace {
+
+constexpr NumberParameter kSamplingWeight{
+    .name = "sampling_weight",
+    .fallback = 1,
+    .range = {0, 1e12},
+    .text =
+        "factor on how often the emitter is chosen when light is sampled. With 0 it never is: surfaces and "
+        "environments "
+        "are then found by rays alone, and what no ray finds is lost, with a warning. Not all may be 0"};
+
+}  // namespace
+
+double read_sampling_weight(Parameters& emitter) { return emitter.read(kSamplingWeight); }
 
 void set_values(float (&out)[3], const glm::dvec3& v) {
   for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
@@ -24,15 +37,14 @@ void refuse_shape(Parameters& p, std::uint32_t shape, const char* reason) {
                         fmt::format("emitter '{}' {} and cannot belong to a shape", p.node().plugin, reason), "area");
 }
 
-std::optional<Texture> slide_texture(Parameters& p, Builder& builder, std::string_view name) {
-  const Node::Child* child = p.texture(name);
+std::optional<Texture> slide_texture(Parameters& p, Lights& lights, std::string_view name, const Node::Child* child) {
   if (!child) return std::nullopt;
-  const Texture texture = builder.texture(*child->node);
+  const Texture texture = lights.texture(*child->node);
   if (texture_kind(texture.word) == TextureKind::mesh_attribute) {
     p.error(name, fmt::format("'{}' is an attribute of meshes", name), "a texture that needs no mesh, such as bitmap");
     return Texture{};
   }
-  return builder.within_range(p, name, texture, 0, std::numeric_limits<double>::infinity());
+  return lights.within_range(p, name, texture, kFromZero);
 }
 
 }  // namespace norrsken

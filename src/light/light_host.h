@@ -1,16 +1,12 @@
 // What all emitters are told.
 //
-// Parameters
-//   sampling_weight  number, at least 0 (default 1): factor on how often the emitter is chosen when light is sampled. With
-//                    0 it never is: surfaces and environments are then found by rays alone, and what no ray finds is lost,
-//                    with a warning. Not all may be 0
 // Emitters that have no surface and do not surround the scene may stand in a shape as well as outside: it makes no
 // difference to them, and the shape is black if it names no bsdf.
 #pragma once
 
 #include <glm/mat3x3.hpp>
 
-#include "compile/builder.h"
+#include "compile/lights.h"
 
 namespace norrsken {
 
@@ -22,7 +18,8 @@ void set_axes(LightRecord& light, const glm::dmat3& local_from_world);
 /// A complaint if the emitter stands inside of a shape; `reason` is why it has no place there.
 void refuse_shape(Parameters& p, std::uint32_t shape, const char* reason);
 
-/// The texture of parameter `name` that is thrown like a slide, if there is one; a complaint if only surfaces have it.
-std::optional<Texture> slide_texture(Parameters& p, Builder& builder, std::string_view name);
+/// The texture `child` of parameter `name`, if there is one, which is thrown like a slide; a complaint if only surfaces
+/// have it.
+std::optional<Texture> slide_texture(Parameters& p, Lights& lights, std::string_view name, const Node::Child* child);
 
 }  // namespace norrsken

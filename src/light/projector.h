@@ -14,20 +14,25 @@
 namespace norrsken::NORRSKEN_ISA {
 
 /// edge1, edge2 and normal are the local axes; `emission` is pi times the scale, with the irradiance where that is of
-/// one colour. Parameters: half the picture's width and height at distance 1, the texture's word.
+/// one colour.
 struct ProjectorLight {
+  struct Stored {
+    float half_width, half_height;  ///< of the picture at distance 1
+    TextureWord texture;
+  };
+
   static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f,
                                             Mask active) {
     const Float half(0.5f), one(1.0f);
-    const auto parameter = [&](int k) { return gather(scene.parameters + k, light.parameters, active); };
+    const auto stored = [&](auto member) { return gather_slot(scene.parameters, member, light.parameters, active); };
     const Vec3f from_light = reference - light.origin;
     const Float z = dot(light.normal, from_light);
-    const Float u = fnma(half, dot(light.edge1, from_light) / (z * parameter(0)), half);
-    const Float v = fnma(half, dot(light.edge2, from_light) / (z * parameter(1)), half);
+    const Float u = fnma(half, dot(light.edge1, from_light) / (z * stored(&Stored::half_width)), half);
+    const Float v = fnma(half, dot(light.edge2, from_light) / (z * stored(&Stored::half_height)), half);
     const Mask lit = (z > 0.0f) & (u >= 0.0f) & (u <= one) & (v >= 0.0f) & (v <= one);
     Color irradiance = light.emission;
     if (scene.texture_kinds != 0) {
-      const UInt texture = gather_uint(scene.parameters + 2, light.parameters, active);
+      const UInt texture = stored(&Stored::texture);
       const Mask textured = active & lit & (texture != 0u);
       if (any(textured)) {
         const TexturePoint point{{u, v}, {}, {}, {}};
@@ -47,8 +52,8 @@ struct ProjectorLight {
   /// Uniform over the picture.
   static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f, Vec2f direction,
                                          Mask active) {
-    const Float half_width = gather(scene.parameters, light.parameters, active);
-    const Float half_height = gather(scene.parameters + 1, light.parameters, active);
+    const Float half_width = gather_slot(scene.parameters, &Stored::half_width, light.parameters, active);
+    const Float half_height = gather_slot(scene.parameters, &Stored::half_height, light.parameters, active);
     const Vec3f local{fms(direction.x, half_width + half_width, half_width),
                       fms(direction.y, half_height + half_height, half_height), 1.0f};
     const Float distance2 = dot(local, local), distance = sqrt(distance2);

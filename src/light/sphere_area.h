@@ -11,10 +11,16 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// The radiance of textured lanes. Parameters: the texture's word, the shape. Not inlined: few scenes need it.
+/// Of textured ones.
+struct SphereAreaStored {
+  TextureWord texture;
+  std::uint32_t shape;
+};
+
+/// The radiance of textured lanes. Not inlined: few scenes need it.
 __attribute__((noinline)) inline Color sphere_texture(const SceneView& scene, UInt parameters, Color emission,
                                                       UInt texture, Vec3f normal, Mask textured) {
-  const UInt shape = gather_uint(scene.parameters + 1, parameters, textured);
+  const UInt shape = gather_slot(scene.parameters, &SphereAreaStored::shape, parameters, textured);
   const Vec2f uv = sphere_uv(gather_sphere_rotation(scene, shape, textured).local(normal));
   return select(textured, evaluate_texture(scene, texture, {uv, {}, shape, {}}, textured), emission);
 }

@@ -2,13 +2,13 @@
 //
 // Source: Catmull and Rom, "A Class of Local Interpolating Splines", 1974; in the family of Mitchell and Netravali 1988
 // it is B = 0, C = 1/2.
-#include "compile/plugins.h"
+#include "compile/frame_tools.h"
 #include "rfilter/cubic_host.h"
 
 namespace norrsken {
 
-FilterRecord compile_rfilter_catmullrom(Parameters&, Builder& builder) {
-  return tabulate_filter(cubic_filter(0, 0.5), builder.tables().filter);
+FilterRecord compile_rfilter_catmullrom(Parameters&, Array<float>& table) {
+  return tabulate_filter(cubic_filter(0, 0.5), table);
 }
 
 }  // namespace norrsken

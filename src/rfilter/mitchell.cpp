@@ -1,16 +1,20 @@
 // mitchell: piecewise cubic, between blurring and ringing. It has negative lobes.
 //
-// Parameters
-//   B, C  numbers from 0 to 1 (default 1/3 each)
 // Source: Mitchell and Netravali, "Reconstruction Filters in Computer Graphics", 1988, equation 8.
-#include "compile/plugins.h"
+#include "compile/frame_tools.h"
 #include "rfilter/cubic_host.h"
 
 namespace norrsken {
+namespace {
 
-FilterRecord compile_rfilter_mitchell(Parameters& p, Builder& builder) {
-  const double b = p.number("B", 1.0 / 3, 0, 1), c = p.number("C", 1.0 / 3, 0, 1);
-  return tabulate_filter(cubic_filter(b, c), builder.tables().filter);
+constexpr NumberParameter kB{.name = "B", .fallback = 1.0 / 3, .range = kShare};
+constexpr NumberParameter kC{.name = "C", .fallback = 1.0 / 3, .range = kShare};
+
+}  // namespace
+
+FilterRecord compile_rfilter_mitchell(Parameters& p, Array<float>& table) {
+  const double b = p.read(kB), c = p.read(kC);
+  return tabulate_filter(cubic_filter(b, c), table);
 }
 
 }  // namespace norrsken

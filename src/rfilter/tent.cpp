@@ -1,15 +1,21 @@
 // tent: falls off linearly from the pixel's centre.
-//
-// Parameters
-//   radius  number above 0 and at most 100, pixels (default 1): where the filter reaches zero
-#include "compile/plugins.h"
+#include "compile/frame_tools.h"
 #include "rfilter/filter_host.h"
 
 namespace norrsken {
+namespace {
 
-FilterRecord compile_rfilter_tent(Parameters& p, Builder& builder) {
-  const double radius = p.number("radius", 1, 0, kMaxFilterRadius, Ends::open_below);
-  return tabulate_filter({[radius](double x) { return 1 - x / radius; }, radius, radius}, builder.tables().filter);
+constexpr NumberParameter kRadius{.name = "radius",
+                                  .fallback = 1,
+                                  .range = above(0, kMaxFilterRadius),
+                                  .text = "where the filter reaches zero",
+                                  .unit = "pixels"};
+
+}  // namespace
+
+FilterRecord compile_rfilter_tent(Parameters& p, Array<float>& table) {
+  const double radius = p.read(kRadius);
+  return tabulate_filter({[radius](double x) { return 1 - x / radius; }, radius, radius}, table);
 }
 
 }  // namespace norrsken

@@ -1,14 +1,19 @@
 #include "sampler/sampler_host.h"
 
-#include <limits>
-
 namespace norrsken {
+namespace {
+
+constexpr IntegerParameter kSampleCount{
+    .name = "sample_count", .fallback = 4, .min = 1, .max = kMaxSampleCount, .text = "samples per pixel"};
+constexpr IntegerParameter kSeed{.name = "seed", .fallback = 0, .min = 0, .text = "another seed gives other noise"};
+
+}  // namespace
 
 SamplerSettings read_sampler(Parameters& p, SamplerKind kind) {
   SamplerSettings settings;
   settings.kind = kind;
-  settings.samples_per_pixel = p.integer("sample_count", 4, 1, kMaxSampleCount);
-  settings.seed = static_cast<std::uint64_t>(p.integer("seed", 0, 0, std::numeric_limits<std::int64_t>::max()));
+  settings.samples_per_pixel = p.read(kSampleCount);
+  settings.seed = static_cast<std::uint64_t>(p.read(kSeed));
   return settings;
 }
 

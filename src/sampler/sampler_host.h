@@ -1,8 +1,4 @@
 // What all samplers are told.
-//
-// Parameters
-//   sample_count  integer, 1 to 2^31 - 1 (default 4): samples per pixel
-//   seed          integer, at least 0 (default 0): another seed gives other noise
 #pragma once
 
 #include "scene/parameters.h"

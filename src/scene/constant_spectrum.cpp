@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <string_view>
 
 #include "base/text.h"
@@ -27,61 +26,74 @@
 namespace norrsken {
 namespace {
 
-constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr double kMaxWavelength = 1e6;  // nm
 
 using Value = Property::Value;
 
-Value blackbody(Parameters& p) {
-  p.require("temperature", "<float name=\"temperature\" value=\"5000\"/>");
-  const double temperature = p.number("temperature", 5000, 0, kMaxTemperature, Ends::open_below);
-  return blackbody_spectrum(temperature);
-}
+constexpr NumberParameter kTemperature{.name = "temperature",
+                                       .fallback = 5000,
+                                       .range = above(0, kMaxTemperature),
+                                       .example = R"(<float name="temperature" value="5000"/>)"};
+constexpr NumberParameter kScale{.name = "scale", .fallback = 1};
+constexpr ColorParameter kColor{.name = "color", .fallback = 1};
+constexpr ColorParameter kOwnColor{.name = "color", .example = R"(<rgb name="color" value="0.5 0.5 0.5"/>)"};
+constexpr BooleanParameter kUnbounded{.name = "unbounded"};
+constexpr NumberParameter kValue{.name = "value", .example = R"(<float name="value" value="0.5"/>)"};
+constexpr ColorParameter kRawValue{.name = "value", .example = R"(<float name="value" value="0.5"/>)"};
+constexpr PointParameter kRawVector{.name = "value"};
+constexpr NumberParameter kFirst{
+    .name = "wavelength_min", .fallback = kCieFirstWavelength, .range = {0, kMaxWavelength}};
+constexpr NumberParameter kLast{.name = "wavelength_max", .fallback = kCieLastWavelength, .range = {0, kMaxWavelength}};
+constexpr NumberParameter kFirstOfRegular{.name = "wavelength_min",
+                                          .fallback = 400,
+                                          .range = above(0, kMaxWavelength),
+                                          .example = R"(<float name="wavelength_min" value="400"/>)"};
+constexpr NumberParameter kLastOfRegular{
+    .name = "wavelength_max", .fallback = 700, .example = R"(<float name="wavelength_max" value="700"/>)"};
+constexpr SpectrumParameter kSpectrum{.name = "value"};
+constexpr NumbersParameter kWavelengths{.name = "wavelengths",
+                                        .example = R"(<string name="wavelengths" value="..."/>)"};
+constexpr NumbersParameter kValues{.name = "values", .example = R"(<string name="values" value="..."/>)"};
+
+Value blackbody(Parameters& p) { return blackbody_spectrum(p.read(kTemperature)); }
 
 Value d65(Parameters& p) {
-  const double scale = p.number("scale", 1, -kAny, kAny);
-  return Property::Rgb{to_array(scale * p.color("color", glm::dvec3(1), -kAny, kAny))};
+  const double scale = p.read(kScale);
+  return Property::Rgb{to_array(scale * p.read(kColor).rgb())};
 }
 
 Value srgb(Parameters& p) {
-  p.require("color", "<rgb name=\"color\" value=\"0.5 0.5 0.5\"/>");
-  p.boolean("unbounded", false);  // whoever asks for the colour says what is in range
-  return Property::Rgb{to_array(p.color("color", glm::dvec3(0), -kAny, kAny))};
+  p.read(kUnbounded);  // whoever asks for the colour says what is in range
+  return Property::Rgb{to_array(p.read(kOwnColor).rgb())};
 }
 
 Value uniform(Parameters& p) {
-  p.require("value", "<float name=\"value\" value=\"0.5\"/>");
-  p.number("wavelength_min", kCieFirstWavelength, 0, kMaxWavelength);
-  p.number("wavelength_max", kCieLastWavelength, 0, kMaxWavelength);
-  return p.number("value", 0, -kAny, kAny);
+  p.read(kFirst);
+  p.read(kLast);
+  return p.read(kValue);
 }
 
 Value rawconstant(Parameters& p) {
-  p.require("value", "<float name=\"value\" value=\"0.5\"/>");
   const auto is_vector = [](const Property& property) {
-    return property.name == "value" && std::holds_alternative<Property::Vector>(property.value);
+    return property.name == kRawVector.name && std::holds_alternative<Property::Vector>(property.value);
   };
-  if (std::ranges::any_of(p.node().properties, is_vector))
-    return Property::Rgb{to_array(p.point("value", glm::dvec3(0)))};
-  return Property::Rgb{to_array(p.color("value", glm::dvec3(0), -kAny, kAny))};
+  if (std::ranges::any_of(p.node().properties, is_vector)) return Property::Rgb{to_array(p.read(kRawVector))};
+  return Property::Rgb{to_array(p.read(kRawValue).rgb())};
 }
 
 /// At least two values; a complaint otherwise.
-std::vector<double> values_of(Parameters& p, std::string_view name) {
-  if (!p.require(name, fmt::format("<string name=\"{}\" value=\"...\"/>", name))) return {};
-  std::vector<double> values = p.numbers(name);
+std::vector<double> two_or_more(Parameters& p, const NumbersParameter& numbers) {
+  std::vector<double> values = p.read(numbers);
   if (values.size() != 1) return values;
-  p.error(name, fmt::format("'{}' is one number", name), "two numbers or more");
+  p.error(numbers.name, fmt::format("'{}' is one number", numbers.name), "two numbers or more");
   return {};
 }
 
 Value regular(Parameters& p) {
-  if (p.has("value")) return Property::Spectrum{p.spectrum("value")};
-  p.require("wavelength_min", "<float name=\"wavelength_min\" value=\"400\"/>");
-  p.require("wavelength_max", "<float name=\"wavelength_max\" value=\"700\"/>");
-  const double first = p.number("wavelength_min", 400, 0, kMaxWavelength, Ends::open_below);
-  const double last = p.number("wavelength_max", std::max(first + 1, 700.0), first, kAny, Ends::open_below);
-  const std::vector<double> values = values_of(p, "values");
+  if (p.has(kSpectrum.name)) return Property::Spectrum{p.read(kSpectrum)};
+  const double first = p.read(kFirstOfRegular);
+  const double last = p.read(kLastOfRegular.or_else(std::max(first + 1, 700.0)).within(above(first)));
+  const std::vector<double> values = two_or_more(p, kValues);
   Property::Spectrum spectrum;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double t = static_cast<double>(i) / static_cast<double>(values.size() - 1);
@@ -91,8 +103,8 @@ Value regular(Parameters& p) {
 }
 
 Value irregular(Parameters& p) {
-  if (p.has("value")) return Property::Spectrum{p.spectrum("value")};
-  const std::vector<double> wavelengths = values_of(p, "wavelengths"), values = values_of(p, "values");
+  if (p.has(kSpectrum.name)) return Property::Spectrum{p.read(kSpectrum)};
+  const std::vector<double> wavelengths = two_or_more(p, kWavelengths), values = two_or_more(p, kValues);
   if (wavelengths.empty() || values.empty()) return Property::Spectrum{};
   if (wavelengths.size() != values.size()) {
     p.error("values", fmt::format("{} wavelengths and {} values", wavelengths.size(), values.size()),

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,21 +12,17 @@
 #include "base/memory.h"
 #include "norrsken/plugins.h"
 #include "scene/description.h"
+#include "scene/parameter.h"
+#include "scene/scene_color.h"
 
 namespace norrsken {
 
 class FileSystem;
 struct BaseParameter;
 
-/// Whether the bounds of a range belong to it.
-enum class Ends { closed, open_below, open };
-
-/// Whether a placement may take space to a plane.
-enum class Flat { no, yes };
-
-/// A plugin asks for its parameters by name; what it asks for is what is accepted. Every complaint (wrong type, out of
-/// range, not finite, missing) goes to the diagnostics and the default is returned, so that reading goes on.
-/// `finish` complains about what was given but never asked for, and notes what the format takes but has no effect here
+/// A plugin reads the parameters that it declares (scene/parameter.h); what it asks for is what is accepted. Every
+/// complaint (wrong type, out of range, not finite, missing) goes to the diagnostics and the fallback is returned, so that
+/// reading goes on. `finish` complains about what was given but never asked for, and notes what the format takes but has no effect here
 /// (scene/base_parameters.h).
 class Parameters {
  public:
@@ -40,38 +35,41 @@ class Parameters {
   Diagnostics& diagnostics() const { return diagnostics_; }
 
   bool has(std::string_view name) const;  ///< does not count as asking
-  bool boolean(std::string_view name, bool fallback);
-  /// Inclusive bounds.
-  std::int64_t integer(std::string_view name, std::int64_t fallback, std::int64_t min, std::int64_t max);
-  /// Also takes an integer, or a `spectrum` or `texture` node of one value, of whose colour the mean counts. Always
-  /// finite.
-  double number(std::string_view name, double fallback, double min, double max, Ends ends = Ends::closed);
-  /// A number where the format has a texture: also an `rgb` or `spectrum`, of which the mean counts and is held against
-  /// the range.
-  double mean(std::string_view name, double fallback, double min, double max, Ends ends = Ends::closed);
-  /// As `number` and `mean`, but what is out of range is brought into it, with a warning or a note.
-  double number_clamped(std::string_view name, double fallback, double min, double max,
-                        Diagnostic::Severity severity = Diagnostic::Severity::warning);
-  double mean_clamped(std::string_view name, double fallback, double min, double max);
-  std::string text(std::string_view name, std::string_view fallback);
-  /// One of the words, in any case; otherwise an error that lists them.
-  std::string choice(std::string_view name, std::string_view fallback, std::initializer_list<std::string_view> words);
-  /// Linear sRGB from `rgb`, `spectrum`, a grey `float`, or a `spectrum` or `texture` node of one value; components, or
-  /// the values of the spectrum, within [min, max]. `emission`: a spectrum is a light's, otherwise a reflectance (see
-  /// color/spectrum.h).
-  glm::dvec3 color(std::string_view name, glm::dvec3 fallback, double min, double max, bool emission = false);
-  /// The node of that name whose values differ from place to place: a `texture` (or `spectrum`) that `color` and
-  /// `number` have no answer to. Null if there is none.
-  const Node::Child* texture(std::string_view name);
+  bool read(const BooleanParameter& boolean);
+  std::int64_t read(const IntegerParameter& integer);
+  /// Also takes an integer, or a `spectrum` or `texture` node of one value, of whose colour the mean counts; `rgb` and
+  /// `spectrum` where the declaration says so. Always finite.
+  double read(const NumberParameter& number);
+  std::string read(const TextParameter& text);
+  template <class T>
+  T read(const ChoiceParameter<T>& choice) {
+    std::vector<std::string> words;
+    for (const auto& [word, value] : choice.words) {
+      if (!word.empty()) words.emplace_back(word);
+    }
+    return choice.words[read_choice(choice.name, words, choice.fallback, choice.text)].value;
+  }
+  /// From `rgb`, `spectrum`, a grey `float`, or a `spectrum` or `texture` node of one value.
+  SceneColor read(const ColorParameter& color);
+  glm::dvec3 read(const PointParameter& point);
+  /// Identity if not given; projective ones are an error, and singular ones where nothing flat will do.
+  glm::dmat4 read(const TransformParameter& transform);
+  /// An existing file's path as found in the search order; empty after a complaint.
+  std::string read(const FileParameter& file);
+  /// Null if it is not given, or after a complaint.
+  const Node::Child* read(const TextureParameter& texture);
   /// Wavelengths in nm and values, spelled out; empty after a complaint.
-  std::vector<std::pair<double, double>> spectrum(std::string_view name);
-  /// Numbers in a string, apart by blanks or commas, or an array; empty after a complaint.
-  std::vector<double> numbers(std::string_view name);
-  /// The same in the memory budget, for what may be large: floats, `per_element` for each element, all finite and at
-  /// most kMaxCoordinate in size.
-  Array<float> floats(std::string_view name, std::size_t per_element);
-  /// Whole numbers from 0 on, `per_element` for each element.
-  Array<std::uint32_t> indices(std::string_view name, std::size_t per_element);
+  SceneColor::Spectrum read(const SpectrumParameter& spectrum);
+  /// Empty after a complaint.
+  std::vector<double> read(const NumbersParameter& numbers);
+  /// The same in the memory budget, for what may be large: floats, all finite and at most kMaxCoordinate in size.
+  Array<float> floats(const NumbersParameter& numbers);
+  /// Whole numbers from 0 on.
+  Array<std::uint32_t> indices(const NumbersParameter& numbers);
+
+  /// The node of that name whose values differ from place to place: a `texture` (or `spectrum`) that `read` has no
+  /// number or colour of. Null if there is none.
+  const Node::Child* texture(std::string_view name);
   /// What programs give in place of a file; null after a complaint, or if it was not given.
   std::shared_ptr<const Mesh> mesh(std::string_view name) {
     return shared<Mesh>(name, "a mesh, in scenes that a program makes");
@@ -79,19 +77,11 @@ class Parameters {
   std::shared_ptr<const Image> image(std::string_view name) {
     return shared<Image>(name, "an image, in scenes that a program makes");
   }
-  glm::dvec3 point(std::string_view name, glm::dvec3 fallback);
-  /// Identity if not given; projective ones are an error, and singular ones where nothing flat will do.
-  glm::dmat4 transform(std::string_view name, Flat flat = Flat::no);
-  /// An existing file's path as found in the search order; empty after a complaint.
-  std::string file(std::string_view name);
 
   /// The child nodes of one kind, in order; counts as asking for them.
   std::vector<const Node::Child*> children(std::string_view kind);
   /// At most one child of that kind; more are an error.
   const Node::Child* child(std::string_view kind);
-
-  /// Whether the parameter was given; complains if not, with what could be written.
-  bool require(std::string_view name, std::string_view example);
 
   /// Where to point for a complaint about parameter `name` (the node itself if it was not given).
   SourceLocation where(std::string_view name) const;
@@ -101,10 +91,13 @@ class Parameters {
   void finish();
 
  private:
-  /// Writes down that a parameter was asked for.
-  void note(std::string_view name, PluginParameter::Type type, std::string fallback = {});
-  void note_range(std::string_view name, double min, double max, Ends ends);
+  /// Asks for it: what plugins() tells is written down, and what is required and missing is complained about.
+  template <class Declared>
+  void ask(const Declared& declared, PluginParameter::Type type, std::string fallback);
+  void note_range(std::string_view name, const Range& range);
   PluginParameter& recorded(std::string_view name);
+  std::size_t read_choice(std::string_view name, const std::vector<std::string>& words, std::size_t fallback,
+                          std::string_view text);
   void accept_without_effect(const BaseParameter& parameter);
   const Property* find(std::string_view name);
   const Node::Child* find_child(std::string_view name) const;
@@ -116,13 +109,9 @@ class Parameters {
   const Property* find_value(std::string_view name, std::string_view accepted, Property& storage);
   template <class T>
   std::shared_ptr<const T> shared(std::string_view name, std::string_view accepted);
-  /// The mean of a colour; nothing after a complaint.
+  /// A number, or the mean of a colour; nothing after a complaint.
   std::optional<double> value_of(const Property& property, std::string_view name);
-  double clamped(const Property* property, std::string_view name, double fallback, double min, double max,
-                 Diagnostic::Severity severity);
-  double number_of(const Property& property, std::string_view name, double fallback, double min, double max, Ends ends);
-  std::optional<glm::dvec3> color_of(const Property& property, std::string_view name, double min, double max,
-                                     bool emission);
+  std::optional<SceneColor> color_of(const Property& property, std::string_view name, const Range& range, ColorOf of);
 
   const Node& node_;
   const Description& description_;

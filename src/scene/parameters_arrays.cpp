@@ -22,8 +22,9 @@ std::shared_ptr<const T> Parameters::shared(std::string_view name, std::string_v
 template std::shared_ptr<const Mesh> Parameters::shared<Mesh>(std::string_view, std::string_view);
 template std::shared_ptr<const Image> Parameters::shared<Image>(std::string_view, std::string_view);
 
-std::vector<double> Parameters::numbers(std::string_view name) {
-  note(name, PluginParameter::Type::numbers);
+std::vector<double> Parameters::read(const NumbersParameter& numbers) {
+  ask(numbers, PluginParameter::Type::numbers, {});
+  const std::string_view name = numbers.name;
   constexpr std::string_view kAccepted = "a string of numbers";
   const Property* property = find_as<std::string, std::shared_ptr<const FloatArray>>(name, kAccepted);
   if (!property) return {};
@@ -49,9 +50,11 @@ std::vector<double> Parameters::numbers(std::string_view name) {
   return values;
 }
 
-Array<float> Parameters::floats(std::string_view name, std::size_t per_element) {
+Array<float> Parameters::floats(const NumbersParameter& numbers) {
+  const std::string_view name = numbers.name;
+  const std::size_t per_element = numbers.per_element;
   Array<float> values;
-  for (const double number : numbers(name)) {
+  for (const double number : read(numbers)) {
     if (std::abs(number) <= kMaxCoordinate) {
       values.push_back(static_cast<float>(number));
       continue;
@@ -64,16 +67,18 @@ Array<float> Parameters::floats(std::string_view name, std::size_t per_element) 
   return {};
 }
 
-Array<std::uint32_t> Parameters::indices(std::string_view name, std::size_t per_element) {
-  note(name, PluginParameter::Type::numbers);
+Array<std::uint32_t> Parameters::indices(const NumbersParameter& numbers) {
+  const std::string_view name = numbers.name;
+  const std::size_t per_element = numbers.per_element;
   Array<std::uint32_t> values;
   const Property* property = find(name);
   if (property && std::holds_alternative<std::shared_ptr<const IndexArray>>(property->value)) {
+    ask(numbers, PluginParameter::Type::numbers, {});
     if (const auto& array = std::get<std::shared_ptr<const IndexArray>>(property->value))
       values.assign(array->begin(), array->end());
     if (values.empty()) error(name, fmt::format("'{}' is empty", name), "whole numbers");
   } else {
-    for (const double number : numbers(name)) {
+    for (const double number : read(numbers)) {
       if (number >= 0 && number < double{1u << 31} && number == std::floor(number)) {
         values.push_back(static_cast<std::uint32_t>(number));
         continue;

@@ -13,7 +13,11 @@ TEST_F(ParametersTest, NodesOfOneValueAreColours) {
     node_.children.clear();
     give_child("spectrum", std::move(plugin), "radiance", std::move(properties));
     Parameters p = parameters();
-    const glm::dvec3 result = p.color("radiance", glm::dvec3(-1), 0, 1e6, emission);
+    const glm::dvec3 result = p.read(ColorParameter{.name = "radiance",
+                                                    .fallback = -1,
+                                                    .range = {0, 1e6},
+                                                    .of = emission ? ColorOf::light : ColorOf::surface})
+                                  .rgb();
     p.finish();
     return result;
   };
@@ -48,8 +52,8 @@ TEST_F(ParametersTest, NodesOfOneValueAreNumbers) {
   give_child("texture", "rawconstant", "alpha", {property("value", "vector", Property::Vector{{0.2, 0.3, 0.7}})});
   give_child("spectrum", "uniform", "beta", {property("value", "float", 2.0)});
   Parameters p = parameters();
-  EXPECT_NEAR(p.number("alpha", 0, 0, 1), 0.4, 1e-12);
-  EXPECT_EQ(p.number("beta", 0.5, 0, 1), 0.5);
+  EXPECT_NEAR(p.read(NumberParameter{"alpha", 0, {0, 1}}), 0.4, 1e-12);
+  EXPECT_EQ(p.read(NumberParameter{"beta", 0.5, {0, 1}}), 0.5);
   p.finish();
   EXPECT_EQ(complaint(), "4: 'beta' is 2 (accepted: a number from 0 to 1)");
 }
@@ -95,7 +99,7 @@ TEST_F(ParametersTest, NodesOfOneValueAreChecked) {
     diagnostics_ = Diagnostics();
     give_child("spectrum", plugin, "x", properties);
     Parameters p = parameters();
-    p.color("x", glm::dvec3(0.5), 0, 1);
+    p.read(ColorParameter{.name = "x", .fallback = 0.5, .range = {0, 1}}).rgb();
     p.finish();
     EXPECT_EQ(complaint(), expected);
   }
@@ -120,7 +124,7 @@ TEST_F(ParametersTest, TexturesAreToldFromNodesOfOneValue) {
 TEST_F(ParametersTest, AChildInPlaceOfAValueIsNamedOnce) {
   give_child("texture", "bitmap", "reflectance");
   Parameters p = parameters();
-  p.color("reflectance", {}, 0, 1);
+  p.read(ColorParameter{.name = "reflectance", .fallback = 0, .range = {0, 1}}).rgb();
   p.finish();
   EXPECT_EQ(complaint(), "4: 'reflectance' is a texture here (accepted: rgb, spectrum, float)");
 }

@@ -9,6 +9,8 @@ std::vector<std::pair<std::string_view, std::string_view>> builtin_files() { ret
 
 namespace {
 
+using Choice = ChoiceParameter<std::string_view>;
+
 TEST_F(ParametersTest, ReadsEveryType) {
   give("b", "boolean", true);
   give("i", "integer", std::int64_t{7});
@@ -18,30 +20,31 @@ TEST_F(ParametersTest, ReadsEveryType) {
   give("p", "point", Property::Vector{{1, 2, 3}});
   give("t", "transform", glm::translate(glm::dmat4(1), {1, 2, 3}));
   Parameters p = parameters();
-  EXPECT_TRUE(p.boolean("b", false));
-  EXPECT_EQ(p.integer("i", 0, 0, 10), 7);
-  EXPECT_EQ(p.number("f", 0, 0, 10), 2.5);
-  EXPECT_EQ(p.number("i", 0, 0, 10), 7) << "an integer will do as a number";
-  EXPECT_EQ(p.text("s", ""), "word");
-  EXPECT_EQ(p.choice("s", "other", {"other", "word"}), "word");
-  EXPECT_EQ(p.color("c", {}, 0, 1), glm::dvec3(0.1, 0.2, 0.3));
-  EXPECT_EQ(p.color("f", {}, 0, 5), glm::dvec3(2.5)) << "a float is grey";
-  EXPECT_EQ(p.point("p", {}), glm::dvec3(1, 2, 3));
-  EXPECT_EQ(p.transform("t")[3], glm::dvec4(1, 2, 3, 1));
+  EXPECT_TRUE(p.read(BooleanParameter{"b", false}));
+  EXPECT_EQ(p.read(IntegerParameter{"i", 0, 0, 10}), 7);
+  EXPECT_EQ(p.read(NumberParameter{"f", 0, {0, 10}}), 2.5);
+  EXPECT_EQ(p.read(NumberParameter{"i", 0, {0, 10}}), 7) << "an integer will do as a number";
+  EXPECT_EQ(p.read(TextParameter{"s", ""}), "word");
+  EXPECT_EQ(p.read(Choice{"s", {{{"other", "other"}, {"word", "word"}}}}), "word");
+  EXPECT_EQ(p.read(ColorParameter{.name = "c", .fallback = 0, .range = {0, 1}}).rgb(), glm::dvec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(p.read(ColorParameter{.name = "f", .fallback = 0, .range = {0, 5}}).rgb(), glm::dvec3(2.5))
+      << "a float is grey";
+  EXPECT_EQ(p.read(PointParameter{"p"}), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(p.read(TransformParameter{"t"})[3], glm::dvec4(1, 2, 3, 1));
   p.finish();
   EXPECT_EQ(complaint(), "");
 }
 
 TEST_F(ParametersTest, WhatIsNotGivenIsTheFallback) {
   Parameters p = parameters();
-  EXPECT_TRUE(p.boolean("x", true));
-  EXPECT_EQ(p.integer("x", 5, 0, 10), 5);
-  EXPECT_EQ(p.number("x", 0.5, 0, 10), 0.5);
-  EXPECT_EQ(p.text("x", "t"), "t");
-  EXPECT_EQ(p.choice("x", "a", {"a", "b"}), "a");
-  EXPECT_EQ(p.color("x", {1, 2, 3}, 0, 1), glm::dvec3(1, 2, 3));
-  EXPECT_EQ(p.point("x", {1, 2, 3}), glm::dvec3(1, 2, 3));
-  EXPECT_EQ(p.transform("x"), glm::dmat4(1));
+  EXPECT_TRUE(p.read(BooleanParameter{"x", true}));
+  EXPECT_EQ(p.read(IntegerParameter{"x", 5, 0, 10}), 5);
+  EXPECT_EQ(p.read(NumberParameter{"x", 0.5, {0, 10}}), 0.5);
+  EXPECT_EQ(p.read(TextParameter{"x", "t"}), "t");
+  EXPECT_EQ(p.read(Choice{"x", {{{"a", "a"}, {"b", "b"}}}}), "a");
+  EXPECT_EQ(p.read(ColorParameter{.name = "x", .fallback = 0.5, .range = {0, 1}}).rgb(), glm::dvec3(0.5));
+  EXPECT_EQ(p.read(PointParameter{"x", {1, 2, 3}}), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(p.read(TransformParameter{"x"}), glm::dmat4(1));
   EXPECT_FALSE(p.has("x"));
   p.finish();
   EXPECT_EQ(complaint(), "");
@@ -52,9 +55,9 @@ TEST_F(ParametersTest, WrongTypes) {
   give("spp", "float", 4.0);
   give("on", "rgb", Property::Rgb{});
   Parameters p = parameters();
-  EXPECT_EQ(p.number("fov", 45, 0, 180), 45);
-  EXPECT_EQ(p.integer("spp", 4, 1, 100), 4);
-  EXPECT_FALSE(p.boolean("on", false));
+  EXPECT_EQ(p.read(NumberParameter{"fov", 45, {0, 180}}), 45);
+  EXPECT_EQ(p.read(IntegerParameter{"spp", 4, 1, 100}), 4);
+  EXPECT_FALSE(p.read(BooleanParameter{"on", false}));
   p.finish();
   EXPECT_EQ(complaint(),
             "2: 'fov' is a string (accepted: float); 2: 'spp' is a float (accepted: integer); "
@@ -67,10 +70,10 @@ TEST_F(ParametersTest, RangesAreNamed) {
   give("radius", "float", -1.0);
   give("huge", "float", 1e300);
   Parameters p = parameters();
-  EXPECT_EQ(p.number("fov", 45, 0, 180), 45);
-  EXPECT_EQ(p.integer("spp", 4, 1, std::numeric_limits<std::int64_t>::max()), 4);
-  EXPECT_EQ(p.number("radius", 1, 0, kInfinity), 1);
-  EXPECT_EQ(p.number("huge", 1, -kInfinity, kInfinity), 1);
+  EXPECT_EQ(p.read(NumberParameter{"fov", 45, {0, 180}}), 45);
+  EXPECT_EQ(p.read(IntegerParameter{"spp", 4, 1, std::numeric_limits<std::int64_t>::max()}), 4);
+  EXPECT_EQ(p.read(NumberParameter{"radius", 1, {0, kInfinity}}), 1);
+  EXPECT_EQ(p.read(NumberParameter{"huge", 1, {-kInfinity, kInfinity}}), 1);
   EXPECT_EQ(complaint(),
             "2: 'fov' is 270 (accepted: a number from 0 to 180); 2: 'spp' is 0 (accepted: an integer of at least 1); "
             "2: 'radius' is -1 (accepted: a number of at least 0); 2: 'huge' is 1e+300 (accepted: a number of at most "
@@ -81,8 +84,8 @@ TEST_F(ParametersTest, ChoicesAreListed) {
   give("axis", "string", std::string("hieght"));
   give("mode", "integer", std::int64_t{1});
   Parameters p = parameters();
-  EXPECT_EQ(p.choice("axis", "width", {"width", "height"}), "width");
-  EXPECT_EQ(p.choice("mode", "a", {"a", "b"}), "a");
+  EXPECT_EQ(p.read(Choice{"axis", {{{"width", "width"}, {"height", "height"}}}}), "width");
+  EXPECT_EQ(p.read(Choice{"mode", {{{"a", "a"}, {"b", "b"}}}}), "a");
   EXPECT_EQ(complaint(),
             "2: 'axis' is 'hieght', did you mean 'height'? (accepted: width, height); "
             "2: 'mode' is an integer (accepted: string: a, b)");
@@ -95,13 +98,17 @@ TEST_F(ParametersTest, Colors) {
   give("saturated", "spectrum", Property::Spectrum{{{500, 1}, {520, 1}}});
   give("flat", "spectrum", Property::Spectrum{{{300, 1}, {900, 1}}});
   Parameters p = parameters();
-  EXPECT_EQ(p.color("bright", glm::dvec3(0.1), 0, 1), glm::dvec3(0.1));
-  EXPECT_EQ(p.color("negative", glm::dvec3(0.1), 0, 1), glm::dvec3(0.1));
-  EXPECT_EQ(p.color("grey", {}, 0, 1), glm::dvec3(0.25));
-  EXPECT_NEAR(p.color("grey", {}, 0, 1, true).x, 0.25 * 1.2048, 1e-3) << "equal energy is reddish as a light";
-  EXPECT_EQ(p.color("saturated", glm::dvec3(1), 0, 1).x, 0) << "out of gamut: clamped, no complaint";
-  EXPECT_NEAR(p.color("flat", {}, 0, 2).x, 1, 1e-9);
-  EXPECT_GT(p.color("flat", {}, 0, 2, true).x, 1.1) << "equal energy is reddish as a light";
+  EXPECT_EQ(p.read(ColorParameter{.name = "bright", .fallback = 0.1, .range = {0, 1}}).rgb(), glm::dvec3(0.1));
+  EXPECT_EQ(p.read(ColorParameter{.name = "negative", .fallback = 0.1, .range = {0, 1}}).rgb(), glm::dvec3(0.1));
+  EXPECT_EQ(p.read(ColorParameter{.name = "grey", .fallback = 0, .range = {0, 1}}).rgb(), glm::dvec3(0.25));
+  EXPECT_NEAR(p.read(ColorParameter{.name = "grey", .fallback = 0, .range = {0, 1}, .of = ColorOf::light}).rgb().x,
+              0.25 * 1.2048, 1e-3)
+      << "equal energy is reddish as a light";
+  EXPECT_EQ(p.read(ColorParameter{.name = "saturated", .fallback = 1, .range = {0, 1}}).rgb().x, 0)
+      << "out of gamut: clamped, no complaint";
+  EXPECT_NEAR(p.read(ColorParameter{.name = "flat", .fallback = 0, .range = {0, 2}}).rgb().x, 1, 1e-9);
+  EXPECT_GT(p.read(ColorParameter{.name = "flat", .fallback = 0, .range = {0, 2}, .of = ColorOf::light}).rgb().x, 1.1)
+      << "equal energy is reddish as a light";
   EXPECT_EQ(complaint(),
             "2: 'bright' is (0.5, 1.5, 0.5) (accepted: components from 0 to 1); "
             "2: 'negative' has a value of -1 (accepted: a spectrum with values from 0 to 1)");
@@ -116,11 +123,11 @@ TEST_F(ParametersTest, PlacementsMustBeUsable) {
   give("far", "transform", glm::translate(glm::dmat4(1), {1e20, 0, 0}));
   give("origin", "point", Property::Vector{{1e20, 0, 0}});
   Parameters p = parameters();
-  EXPECT_EQ(p.transform("flat"), glm::dmat4(1));
-  EXPECT_EQ(p.transform("tiny")[0][0], 1e-9) << "small is not singular";
-  EXPECT_EQ(p.transform("projective"), glm::dmat4(1));
-  EXPECT_EQ(p.transform("far"), glm::dmat4(1));
-  EXPECT_EQ(p.point("origin", {1, 1, 1}), glm::dvec3(1));
+  EXPECT_EQ(p.read(TransformParameter{"flat"}), glm::dmat4(1));
+  EXPECT_EQ(p.read(TransformParameter{"tiny"})[0][0], 1e-9) << "small is not singular";
+  EXPECT_EQ(p.read(TransformParameter{"projective"}), glm::dmat4(1));
+  EXPECT_EQ(p.read(TransformParameter{"far"}), glm::dmat4(1));
+  EXPECT_EQ(p.read(PointParameter{"origin", {1, 1, 1}}), glm::dvec3(1));
   EXPECT_EQ(complaint(),
             "2: 'flat' cannot be inverted (accepted: scale factors other than 0); "
             "2: 'projective' is not affine (accepted: a matrix whose last row is 0 0 0 1); "
@@ -136,10 +143,10 @@ TEST_F(ParametersTest, FilesAreLookedUp) {
   give("b", "string", std::string("b.obj"));
   give("c", "string", std::string("c.obj"));
   Parameters p = parameters();
-  EXPECT_EQ(p.file("a"), "dir/a.obj");
-  EXPECT_EQ(p.file("b"), "lib/b.obj");
-  EXPECT_EQ(p.file("c"), "");
-  EXPECT_EQ(p.file("filename"), "");
+  EXPECT_EQ(p.read(FileParameter{"a"}), "dir/a.obj");
+  EXPECT_EQ(p.read(FileParameter{"b"}), "lib/b.obj");
+  EXPECT_EQ(p.read(FileParameter{"c"}), "");
+  EXPECT_EQ(p.read(FileParameter{"filename"}), "");
   EXPECT_EQ(complaint(),
             "2: there is no file 'c.obj' (accepted: a file in lib, dir/); "
             "1: bsdf 'diffuse' needs a parameter 'filename' (accepted: <string name=\"filename\" value=\"...\"/>)");
@@ -152,7 +159,7 @@ TEST_F(ParametersTest, OfTwoFilesTheOneInTheSearchPathsIsMeant) {
   description_.search_paths = {"lib"};
   give("a", "string", std::string("a.obj"));
   Parameters p = parameters();
-  EXPECT_EQ(p.file("a"), "lib/a.obj");
+  EXPECT_EQ(p.read(FileParameter{"a"}), "lib/a.obj");
   EXPECT_EQ(complaint(), "2: 'a.obj' is 'lib/a.obj' here, and there is 'dir/a.obj' too");
 }
 
@@ -160,8 +167,8 @@ TEST_F(ParametersTest, UnusedParametersAreErrors) {
   give("reflectanse", "rgb", Property::Rgb{});
   give("zzz", "float", 1.0);
   Parameters p = parameters();
-  p.color("reflectance", {}, 0, 1);
-  p.number("alpha", 0, 0, 1);
+  p.read(ColorParameter{.name = "reflectance", .fallback = 0, .range = {0, 1}}).rgb();
+  p.read(NumberParameter{"alpha", 0, {0, 1}});
   p.finish();
   EXPECT_EQ(complaint(),
             "3: unused parameter 'reflectanse' of bsdf 'diffuse', did you mean 'reflectance'? "
@@ -194,8 +201,8 @@ TEST_F(ParametersTest, AtMostOneChild) {
 TEST_F(ParametersTest, WhatTheReaderComplainedAboutIsNotComplainedAboutAgain) {
   node_.unreadable = {"filename", "fov"};
   Parameters p = parameters();
-  EXPECT_EQ(p.file("filename"), "");
-  EXPECT_EQ(p.number("fov", 45, 0, 180), 45);
+  EXPECT_EQ(p.read(FileParameter{"filename"}), "");
+  EXPECT_EQ(p.read(NumberParameter{"fov", 45, {0, 180}}), 45);
   EXPECT_TRUE(p.has("fov"));
   p.finish();
   EXPECT_EQ(complaint(), "");
@@ -214,10 +221,10 @@ TEST_F(ParametersTest, BoundsThatDoNotBelongToTheRange) {
   give<double>("huge", "float", 1e20);
   give<double>("inside", "float", 180);
   Parameters p = parameters();
-  EXPECT_EQ(p.number("low", 7, 0, kMaxCoordinate, Ends::open_below), 7);
-  EXPECT_EQ(p.number("high", 7, 0, 180, Ends::open), 7);
-  EXPECT_EQ(p.number("huge", 7, 0, kMaxCoordinate, Ends::open_below), 7);
-  EXPECT_EQ(p.number("inside", 7, 0, 180, Ends::open_below), 180);
+  EXPECT_EQ(p.read(NumberParameter{"low", 7, {0, kMaxCoordinate, Ends::open_below}}), 7);
+  EXPECT_EQ(p.read(NumberParameter{"high", 7, {0, 180, Ends::open}}), 7);
+  EXPECT_EQ(p.read(NumberParameter{"huge", 7, {0, kMaxCoordinate, Ends::open_below}}), 7);
+  EXPECT_EQ(p.read(NumberParameter{"inside", 7, {0, 180, Ends::open_below}}), 180);
   EXPECT_EQ(complaint(),
             "2: 'low' is 0 (accepted: a number above 0); 2: 'high' is 180 (accepted: a number above 0 and below 180); "
             "2: 'huge' is 1e+20 (accepted: a number above 0 and at most 1e+12)");
@@ -229,16 +236,47 @@ TEST_F(ParametersTest, BringsIntoRange) {
   give("far", "float", 1e38);
   give("fine", "float", 0.5);
   Parameters p = parameters();
-  EXPECT_EQ(p.number_clamped("weight", 0, 0, 1), 1);
-  EXPECT_EQ(p.mean_clamped("share", 0, 0, 1), 0);
-  EXPECT_EQ(p.number_clamped("far", 0, 0, 1e13, Diagnostic::Severity::note), 1e13);
-  EXPECT_EQ(p.number_clamped("fine", 0, 0, 1), 0.5);
-  EXPECT_EQ(p.number_clamped("none", 7, 0, 1), 7);
+  EXPECT_EQ(p.read(NumberParameter{.name = "weight", .fallback = 0, .range = {0, 1}, .beyond = Beyond::is_clamped}), 1);
+  EXPECT_EQ(p.read(NumberParameter{
+                .name = "share", .fallback = 0, .range = {0, 1}, .beyond = Beyond::is_clamped, .takes_colors = true}),
+            0);
+  EXPECT_EQ(p.read(NumberParameter{
+                .name = "far", .fallback = 0, .range = {0, 1e13}, .beyond = Beyond::is_clamped_with_a_note}),
+            1e13);
+  EXPECT_EQ(p.read(NumberParameter{.name = "fine", .fallback = 0, .range = {0, 1}, .beyond = Beyond::is_clamped}), 0.5);
+  EXPECT_EQ(p.read(NumberParameter{.name = "none", .fallback = 7, .range = {0, 1}, .beyond = Beyond::is_clamped}), 7);
   ASSERT_EQ(diagnostics_.all().size(), 3u);
   EXPECT_EQ(diagnostics_.all()[0].severity, Diagnostic::Severity::warning);
   EXPECT_EQ(diagnostics_.all()[0].message, "'weight' is 1.2, which is taken for 1");
   EXPECT_EQ(diagnostics_.all()[1].message, "'share' is -2, which is taken for 0");
   EXPECT_EQ(diagnostics_.all()[2].severity, Diagnostic::Severity::note);
+}
+
+/// Spectra find one door: who asks for a spectrum gets what the file says, and rgb alone comes of it there.
+TEST_F(ParametersTest, ColoursKeepWhatTheFileSays) {
+  const SceneColor::Spectrum samples{{400, 0.1}, {700, 0.9}};
+  give("grey", "float", 0.25);
+  give("rgb", "rgb", Property::Rgb{{0.1, 0.2, 0.3}});
+  give("spectrum", "spectrum", Property::Spectrum{samples});
+  Parameters p = parameters();
+  EXPECT_EQ(std::get<double>(p.read(ColorParameter{.name = "grey"}).said()), 0.25);
+  EXPECT_EQ(std::get<glm::dvec3>(p.read(ColorParameter{.name = "rgb"}).said()), glm::dvec3(0.1, 0.2, 0.3));
+  const SceneColor surface = p.read(ColorParameter{.name = "spectrum"});
+  const SceneColor light = p.read(ColorParameter{.name = "spectrum", .of = ColorOf::light});
+  EXPECT_EQ(std::get<SceneColor::Spectrum>(surface.said()), samples);
+  EXPECT_GT(light.rgb().x, surface.rgb().x) << "equal energy is reddish as a light";
+  EXPECT_TRUE(SceneColor().is_black());
+}
+
+TEST_F(ParametersTest, WhatIsRequiredAndMissingIsTold) {
+  Parameters p = parameters();
+  EXPECT_EQ(p.read(NumberParameter{.name = "weight", .fallback = 0.5, .example = "<float .../>"}), 0.5);
+  EXPECT_EQ(p.read(FileParameter{.name = "filename"}), "");
+  p.finish();
+  EXPECT_EQ(
+      complaint(),
+      "1: bsdf 'diffuse' needs a parameter 'weight' (accepted: <float .../>); 1: bsdf 'diffuse' needs a parameter "
+      "'filename' (accepted: <string name=\"filename\" value=\"...\"/>)");
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // The part of Parameters that is about what nobody asked for.
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "base/text.h"
 #include "scene/base_parameters.h"
 #include "scene/parameters.h"
@@ -15,21 +13,19 @@ std::vector<std::string> list(const std::set<std::string, std::less<>>& words) {
 }  // namespace
 
 void Parameters::accept_without_effect(const BaseParameter& parameter) {
-  constexpr double kAny = std::numeric_limits<double>::infinity();
-  using Limits = std::numeric_limits<std::int64_t>;
   const int errors = diagnostics_.error_count();
   switch (parameter.type) {
     case BaseParameter::Type::boolean:
-      boolean(parameter.name, false);
+      read(BooleanParameter{.name = parameter.name});
       break;
     case BaseParameter::Type::integer:
-      integer(parameter.name, 0, Limits::min(), Limits::max());
+      read(IntegerParameter{.name = parameter.name});
       break;
     case BaseParameter::Type::number:
-      number(parameter.name, 0, -kAny, kAny);
+      read(NumberParameter{.name = parameter.name});
       break;
     case BaseParameter::Type::transform:
-      transform(parameter.name);
+      read(TransformParameter{.name = parameter.name});
       break;
   }
   if (diagnostics_.error_count() > errors) return;

@@ -1,6 +1,6 @@
 #include "shape/analytic_host.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

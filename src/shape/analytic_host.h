@@ -5,7 +5,8 @@
 #include <optional>
 #include <string_view>
 
-#include "compile/builder.h"
+#include "compile/shape_geometry.h"
+#include "scene/parameters.h"
 
 namespace norrsken {
 

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
+#include "compile/builder.h"
 #include "compile/compile_testing.h"
 #include "compile/plugins.h"
 
@@ -33,7 +34,8 @@ Placed place(CompileShape& compile_shape_plugin, const std::string& plugin, cons
   EXPECT_TRUE(description.has_value());
   Parameters p(*description->scene->children.at(0).node, *description, files, result.diagnostics);
   Builder builder(*description, files, result.diagnostics);
-  Placed placed{compile_shape_plugin(p, builder), {}};
+  Shapes shapes(builder);
+  Placed placed{compile_shape_plugin(p, shapes), {}};
   p.finish();
   placed.messages = result.messages();
   return placed;

@@ -1,21 +1,18 @@
 // cube: from (-1, -1, -1) to (1, 1, 1), facing outwards.
 //
-// Parameters
-//   to_world      transform (default identity)
-//   flip_normals  boolean (default false): face inwards
-//   face_normals  boolean: without effect, as the faces are flat
 // Two triangles a face; each face has the texture coordinates of the whole unit square, turned as Mitsuba turns them. A
 // mirroring placement does not turn it inside out, as in Mitsuba.
-#include <fmt/format.h>
-
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "compile/plugins.h"
 #include "shape/mesh_host.h"
 
 namespace norrsken {
 namespace {
+
+constexpr TransformParameter kToWorld{.name = "to_world", .text = "", .flat = Flat::yes};
+constexpr BooleanParameter kFlipNormals{.name = "flip_normals", .text = "face inwards"};
+constexpr BooleanParameter kFaceNormals{.name = "face_normals", .text = "without effect, as the faces are flat"};
 
 /// The directions in which u and v grow on a face; it looks along v x u.
 struct Face {
@@ -42,11 +39,11 @@ MeshData make_cube() {
 
 }  // namespace
 
-std::optional<ShapeGeometry> compile_shape_cube(Parameters& p, Builder& builder) {
-  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
-  const bool flip_normals = p.boolean("flip_normals", false);
-  p.boolean("face_normals", false);
-  builder.describe(p.node(), "12 triangles");
+std::optional<ShapeGeometry> compile_shape_cube(Parameters& p, Shapes& shapes) {
+  const glm::dmat4 to_world = p.read(kToWorld);
+  const bool flip_normals = p.read(kFlipNormals);
+  p.read(kFaceNormals);
+  shapes.describe(p.node(), "12 triangles");
 
   ShapeGeometry geometry;
   geometry.mesh = make_cube();

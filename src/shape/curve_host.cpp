@@ -1,6 +1,6 @@
 #include "shape/curve_host.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>
@@ -17,6 +17,9 @@ namespace {
 
 using Point = std::array<float, 4>;
 
+constexpr TransformParameter kToWorld{.name = "to_world",
+                                      .text = "of the control points; their radii stay as they are, as in Mitsuba"};
+
 glm::dvec3 position(const Point& p) { return {p[0], p[1], p[2]}; }
 
 bool move_to_world(Array<Point>& points, const glm::dmat4& to_world, Parameters& p) {
@@ -24,7 +27,7 @@ bool move_to_world(Array<Point>& points, const glm::dmat4& to_world, Parameters&
     const glm::dvec3 moved = to_world * glm::dvec4(position(point), 1);
     for (int axis = 0; axis < 3; ++axis) {
       if (!(std::abs(moved[axis]) <= kMaxCoordinate)) {
-        p.error("to_world", fmt::format("a control point is at ({:.6g}, {:.6g}, {:.6g})", moved.x, moved.y, moved.z),
+        p.error(kToWorld.name, fmt::format("a control point is at ({:.6g}, {:.6g}, {:.6g})", moved.x, moved.y, moved.z),
                 fmt::format("coordinates from {:g} to {:g}", -kMaxCoordinate, kMaxCoordinate));
         return false;
       }
@@ -53,13 +56,14 @@ std::vector<Ball> hull_of(const Point* points, CurveBasis basis) {
 
 }  // namespace
 
-std::optional<ShapeGeometry> compile_curves(Parameters& p, Builder& builder, AnalyticKind kind, CurveBasis basis) {
-  const std::string path = p.file("filename");
-  const glm::dmat4 to_world = p.transform("to_world");
+std::optional<ShapeGeometry> compile_curves(Parameters& p, Shapes& shapes, const FileParameter& filename,
+                                            AnalyticKind kind, CurveBasis basis) {
+  const std::string path = p.read(filename);
+  const glm::dmat4 to_world = p.read(kToWorld);
   if (path.empty()) return std::nullopt;
   std::optional<CurveData> curves;
-  if (const std::optional<FileContents> contents = read_shape_file(path, p, builder))
-    curves = read_curves(contents->bytes, basis, path, builder.diagnostics());
+  if (const std::optional<FileContents> contents = read_shape_file(path, filename.name, p, shapes))
+    curves = read_curves(contents->bytes, basis, path, p.diagnostics());
   if (!curves || !move_to_world(curves->points, to_world, p)) return std::nullopt;
 
   // Already in the world: Embree and the kernels read the same numbers.
@@ -85,8 +89,8 @@ std::optional<ShapeGeometry> compile_curves(Parameters& p, Builder& builder, Ana
   const auto counted = [](std::size_t n, const char* what) {
     return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
   };
-  builder.describe(p.node(),
-                   fmt::format("{}, {}", counted(curves->curves, "curve"), counted(shape.element_count, "segment")));
+  shapes.describe(p.node(),
+                  fmt::format("{}, {}", counted(curves->curves, "curve"), counted(shape.element_count, "segment")));
   return place_analytic(shape, p);
 }
 

@@ -3,12 +3,13 @@
 
 #include <optional>
 
-#include "compile/builder.h"
+#include "compile/shapes.h"
 #include "formats/curves.h"
 
 namespace norrsken {
 
 /// A shape of the curves in the file that its parameters name.
-std::optional<ShapeGeometry> compile_curves(Parameters& p, Builder& builder, AnalyticKind kind, CurveBasis basis);
+std::optional<ShapeGeometry> compile_curves(Parameters& p, Shapes& shapes, const FileParameter& filename,
+                                            AnalyticKind kind, CurveBasis basis);
 
 }  // namespace norrsken

@@ -1,18 +1,12 @@
 // cylinder: between two points of its axis, open at both ends; its normals point away from the axis.
 //
-// Parameters
-//   p0, p1        points, scene units (defaults 0 0 0 and 0 0 1): the ends of the axis
-//   radius        number from 0, scene units (default 1)
-//   to_world      transform (default identity), applied to the cylinder of those; it may scale along the axis otherwise
-//                 than across, but the cross-section must stay a circle at right angles to the axis
-//   flip_normals  boolean (default false): the normals point to the axis
 // u is the angle around the axis in turns, v goes from p0 to p1. A mirroring `to_world` leaves the normals outwards, as in
 // Mitsuba 3.9.
 // Up to a percent that `to_world` makes the cross-section an ellipse by, or shears it, is left out.
 // Departures: Mitsuba warns of a `to_world` that makes no cylinder and renders one; here it is an error. A mirrored
 // cylinder that shines does so outwards for light sampling too; Mitsuba 3.9 samples light from its inside, whereas rays
 // find it on the outside, so that what stands around it is too dark there.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +14,23 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "compile/plugins.h"
+#include "compile/shapes.h"
 #include "math/frame.h"
 #include "shape/analytic_host.h"
 
 namespace norrsken {
 namespace {
+
+constexpr PointParameter kP0{.name = "p0", .text = "where the axis begins", .unit = "scene units"};
+constexpr PointParameter kP1{.name = "p1", .fallback = {0, 0, 1}, .text = "where the axis ends", .unit = "scene units"};
+constexpr NumberParameter kRadius{.name = "radius", .fallback = 1, .range = {0, kMaxCoordinate}, .unit = "scene units"};
+constexpr TransformParameter kToWorld{
+    .name = "to_world",
+    .text =
+        "applied to the cylinder of those; it may scale along the axis otherwise than across, but the cross-section "
+        "must stay a circle at right angles to the axis",
+    .flat = Flat::yes};
+constexpr BooleanParameter kFlipNormals{.name = "flip_normals", .text = "the normals point to the axis"};
 
 glm::dvec3 to_dvec(const isa_host::Vec3f& v) { return {v.x.v, v.y.v, v.z.v}; }
 
@@ -58,11 +63,11 @@ void straighten(glm::dmat4& world_from_local, double radius) {
 
 }  // namespace
 
-std::optional<ShapeGeometry> compile_shape_cylinder(Parameters& p, Builder& builder) {
-  const glm::dvec3 p0 = p.point("p0", glm::dvec3(0)), p1 = p.point("p1", glm::dvec3(0, 0, 1));
-  const double radius = p.number("radius", 1, 0, kMaxCoordinate);
-  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
-  const bool flip_normals = p.boolean("flip_normals", false);
+std::optional<ShapeGeometry> compile_shape_cylinder(Parameters& p, Shapes& shapes) {
+  const glm::dvec3 p0 = p.read(kP0), p1 = p.read(kP1);
+  const double radius = p.read(kRadius);
+  const glm::dmat4 to_world = p.read(kToWorld);
+  const bool flip_normals = p.read(kFlipNormals);
   if (p0 == p1) return nothing_to_draw(p, "length", 0);
   if (radius == 0 || glm::dmat3(to_world) == glm::dmat3(0)) return nothing_to_draw(p, "radius", 0);
   glm::dmat4 world_from_local = to_world * cylinder_from_local(p0, p1 - p0, radius);
@@ -75,7 +80,7 @@ std::optional<ShapeGeometry> compile_shape_cylinder(Parameters& p, Builder& buil
     return std::nullopt;
   const double world_radius = std::sqrt(glm::length(linear[0]) * glm::length(linear[1])),
                length = glm::length(linear[2]);
-  builder.describe(p.node(), fmt::format("radius {:.6g}, length {:.6g}", world_radius, length));
+  shapes.describe(p.node(), fmt::format("radius {:.6g}, length {:.6g}", world_radius, length));
   straighten(world_from_local, world_radius);
   return place_analytic(
       {AnalyticKind::cylinder, world_from_local, 2 * std::numbers::pi * world_radius * length, flip_normals}, p);

@@ -1,17 +1,7 @@
 // mesh: triangles that the scene itself holds, in strings of numbers or in arrays of the program that makes it.
 //
-// Parameters
-//   positions     numbers, required: x y z of each vertex
-//   triangles     whole numbers, required: three vertices each, counted from 0, counter-clockwise seen from the front
-//   normals       numbers: x y z at each vertex, of any length
-//   texcoords     numbers: u v of each vertex
-//   mesh          all of these in one, with attributes for textures of type `mesh_attribute`: for programs alone
-//   to_world      transform (default identity); normals go through its inverse transpose
-//   face_normals  boolean (default false): shade flat, whatever normals there are
-//   flip_normals  boolean (default false): turn the surface inside out
-//
 // Departures: Mitsuba makes such meshes by Python alone.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -21,11 +11,22 @@
 #include <string_view>
 #include <utility>
 
-#include "compile/plugins.h"
 #include "shape/mesh_host.h"
 
 namespace norrsken {
 namespace {
+
+constexpr NumbersParameter kPositions{.name = "positions",
+                                      .per_element = 3,
+                                      .text = "x y z of each vertex",
+                                      .example = R"(<string name="positions" value="0 0 0  1 0 0  0 1 0"/>)"};
+constexpr NumbersParameter kTriangles{
+    .name = "triangles",
+    .per_element = 3,
+    .text = "whole ones: three vertices each, counted from 0, counter-clockwise seen from the front",
+    .example = R"(<string name="triangles" value="0 1 2"/>)"};
+constexpr NumbersParameter kNormals{.name = "normals", .per_element = 3, .text = "x y z at each vertex, of any length"};
+constexpr NumbersParameter kTexcoords{.name = "texcoords", .per_element = 2, .text = "u v of each vertex"};
 
 /// Elements of N numbers out of a flat array.
 template <std::size_t N, class T>
@@ -92,13 +93,10 @@ class Check {
 
 /// The arrays, checked. Empty after a complaint.
 std::optional<MeshData> read_arrays(Parameters& p) {
-  p.require("positions", R"(<string name="positions" value="0 0 0  1 0 0  0 1 0"/>)");
-  p.require("triangles", R"(<string name="triangles" value="0 1 2"/>)");
-  const Array<float> positions = p.floats("positions", 3), normals = p.floats("normals", 3),
-                     texcoords = p.floats("texcoords", 2);
-  const Array<std::uint32_t> triangles = p.indices("triangles", 3);
+  const Array<float> positions = p.floats(kPositions), normals = p.floats(kNormals), texcoords = p.floats(kTexcoords);
+  const Array<std::uint32_t> triangles = p.indices(kTriangles);
   if (positions.empty() || triangles.empty()) return std::nullopt;
-  Check corners(p, "triangles"), at_normals(p, "normals"), at_texcoords(p, "texcoords");
+  Check corners(p, kTriangles.name), at_normals(p, kNormals.name), at_texcoords(p, kTexcoords.name);
   corners.triangles(triangles, positions.size() / 3);
   if (!normals.empty()) at_normals.numbers("components of normals", normals, positions.size());
   if (!texcoords.empty()) at_texcoords.numbers("texture coordinates", texcoords, positions.size() / 3 * 2);
@@ -128,14 +126,14 @@ std::optional<MeshData> copy_mesh(const Mesh& given, Parameters& p) {
 
 }  // namespace
 
-std::optional<ShapeGeometry> compile_shape_mesh(Parameters& p, Builder& builder) {
+std::optional<ShapeGeometry> compile_shape_mesh(Parameters& p, Shapes& shapes) {
   std::optional<MeshData> mesh;
   if (!p.has("mesh")) {
     mesh = read_arrays(p);
   } else if (const std::shared_ptr<const Mesh> given = p.mesh("mesh")) {
     mesh = copy_mesh(*given, p);
   }
-  return compile_mesh(p, builder, mesh ? *std::move(mesh) : MeshData{});
+  return compile_mesh(p, shapes, mesh ? *std::move(mesh) : MeshData{});
 }
 
 }  // namespace norrsken

@@ -1,6 +1,6 @@
 #include "shape/mesh_host.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,12 @@ namespace norrsken {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr FileParameter kFilename{.name = "filename"};
+constexpr TransformParameter kToWorld{
+    .name = "to_world", .text = "vertex normals go through its inverse transpose", .flat = Flat::yes};
+constexpr BooleanParameter kFaceNormals{.name = "face_normals", .text = "shade flat, whatever normals there are"};
+constexpr BooleanParameter kFlipNormals{.name = "flip_normals", .text = "turn the surface inside out"};
 
 glm::dvec3 to_dvec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
@@ -74,7 +80,7 @@ bool move_to_world(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
     const glm::dvec3 moved = to_world * glm::dvec4(to_dvec(position), 1);
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(moved[axis]) <= kMaxCoordinate) continue;
-      p.error("to_world", fmt::format("a vertex is at ({:.6g}, {:.6g}, {:.6g})", moved.x, moved.y, moved.z),
+      p.error(kToWorld.name, fmt::format("a vertex is at ({:.6g}, {:.6g}, {:.6g})", moved.x, moved.y, moved.z),
               fmt::format("coordinates from {:g} to {:g}", -kMaxCoordinate, kMaxCoordinate));
       return false;
     }
@@ -117,10 +123,10 @@ void drop_degenerate_triangles(MeshData& mesh, Parameters& p) {
   }
   const std::size_t dropped = before - mesh.triangles.size();
   if (mesh.triangles.empty() && before != 0) {
-    p.diagnostics().warning(p.where(p.has("filename") ? "filename" : "to_world"),
+    p.diagnostics().warning(p.where(p.has(kFilename.name) ? kFilename.name : kToWorld.name),
                             "no triangle of the shape has an area, nothing of it is drawn");
   } else if (dropped != 0) {
-    p.diagnostics().warning(p.where("filename"),
+    p.diagnostics().warning(p.where(kFilename.name),
                             fmt::format("{} of {} triangles {} no area and {} left out", dropped, before,
                                         dropped == 1 ? "has" : "have", dropped == 1 ? "is" : "are"));
   }
@@ -133,15 +139,15 @@ struct MeshParameters {
 };
 
 MeshParameters read_mesh_parameters(Parameters& p) {
-  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
-  const bool face_normals = p.boolean("face_normals", false);
-  return {to_world, face_normals, p.boolean("flip_normals", false)};
+  const glm::dmat4 to_world = p.read(kToWorld);
+  const bool face_normals = p.read(kFaceNormals);
+  return {to_world, face_normals, p.read(kFlipNormals)};
 }
 
 /// The file's bytes are let go of when they have been read.
-std::optional<MeshData> read_file(const std::string& path, Parameters& p, Builder& builder, const ReadMesh& read) {
-  const std::optional<FileContents> contents = read_shape_file(path, p, builder);
-  return contents ? read(contents->bytes, path, builder.diagnostics()) : std::nullopt;
+std::optional<MeshData> read_file(const std::string& path, Parameters& p, Shapes& shapes, const ReadMesh& read) {
+  const std::optional<FileContents> contents = read_shape_file(path, kFilename.name, p, shapes);
+  return contents ? read(contents->bytes, path, p.diagnostics()) : std::nullopt;
 }
 
 }  // namespace
@@ -198,23 +204,23 @@ bool place_mesh(MeshData& mesh, const glm::dmat4& to_world, Parameters& p) {
   return true;
 }
 
-std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, const ReadMesh& read,
-                                               std::optional<bool> flip_tex_coords) {
-  const std::string path = p.file("filename");
-  if (flip_tex_coords) flip_tex_coords = p.boolean("flip_tex_coords", *flip_tex_coords);
+std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Shapes& shapes, const ReadMesh& read,
+                                               std::optional<BooleanParameter> flip_tex_coords) {
+  const std::string path = p.read(kFilename);
+  const bool flips = flip_tex_coords && p.read(*flip_tex_coords);
   std::optional<MeshData> mesh;
-  if (!path.empty()) mesh = read_file(path, p, builder, read);
+  if (!path.empty()) mesh = read_file(path, p, shapes, read);
   if (!mesh) {
     read_mesh_parameters(p);
     return std::nullopt;
   }
-  if (flip_tex_coords.value_or(false)) {
+  if (flips) {
     for (auto& texcoord : mesh->texcoords) texcoord[1] = 1 - texcoord[1];
   }
-  return compile_mesh(p, builder, *std::move(mesh));
+  return compile_mesh(p, shapes, *std::move(mesh));
 }
 
-std::optional<ShapeGeometry> compile_mesh(Parameters& p, Builder& builder, MeshData mesh) {
+std::optional<ShapeGeometry> compile_mesh(Parameters& p, Shapes& shapes, MeshData mesh) {
   auto [to_world, face_normals, flip_normals] = read_mesh_parameters(p);
   face_normals |= mesh.face_normals;
   if (face_normals) mesh.normals = {};
@@ -228,9 +234,8 @@ std::optional<ShapeGeometry> compile_mesh(Parameters& p, Builder& builder, MeshD
     reverse_winding(mesh);
     for (auto& normal : mesh.normals) normal = to_float(-to_dvec(normal));
   }
-  builder.describe(p.node(),
-                   fmt::format("{} triangle{}{}", mesh.triangles.size(), mesh.triangles.size() == 1 ? "" : "s",
-                               mesh.normals.empty() ? "" : ", smooth"));
+  shapes.describe(p.node(), fmt::format("{} triangle{}{}", mesh.triangles.size(), mesh.triangles.size() == 1 ? "" : "s",
+                                        mesh.normals.empty() ? "" : ", smooth"));
   ShapeGeometry geometry;
   geometry.mesh = std::move(mesh);
   return geometry;

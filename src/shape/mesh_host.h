@@ -1,12 +1,5 @@
 // What all shapes made of triangles share: parameters of mesh files, placing, vertex normals.
 //
-// Parameters of mesh files
-//   filename         string, required
-//   to_world         transform (default identity); vertex normals go through its inverse transpose
-//   face_normals     boolean (default false): shade flat, whatever normals the file has
-//   flip_normals     boolean (default false): turn the surface inside out
-//   flip_tex_coords  boolean: v becomes 1 - v (default true for obj, false for ply; serialized has no such parameter)
-//
 // Polygons are cut into triangles as they look from the front of their best plane, concave ones too (Mitsuba draws fans).
 // Left out, with a warning: triangles without an area, faces of fewer than three corners, vertices that are not finite.
 //
@@ -31,20 +24,21 @@
 #include <string>
 #include <string_view>
 
-#include "compile/builder.h"
+#include "compile/shapes.h"
 
 namespace norrsken {
 
 using ReadMesh =
     std::function<std::optional<MeshData>(std::string_view bytes, const std::string& path, Diagnostics& diagnostics)>;
 
-/// A shape that reads its mesh from the file that its parameters name. `flip_tex_coords` is that parameter's default;
-/// formats without one do not take it.
-std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Builder& builder, const ReadMesh& read,
-                                               std::optional<bool> flip_tex_coords);
+inline constexpr BooleanParameter kFlipTexCoords{.name = "flip_tex_coords", .text = "v becomes 1 - v"};
+
+/// A shape that reads its mesh from the file that its parameters name. Formats without `flip_tex_coords` do not take it.
+std::optional<ShapeGeometry> compile_mesh_file(Parameters& p, Shapes& shapes, const ReadMesh& read,
+                                               std::optional<BooleanParameter> flip_tex_coords);
 
 /// Reads to_world, face_normals and flip_normals, and the shape that `mesh` becomes by them. Empty after a complaint.
-std::optional<ShapeGeometry> compile_mesh(Parameters& p, Builder& builder, MeshData mesh);
+std::optional<ShapeGeometry> compile_mesh(Parameters& p, Shapes& shapes, MeshData mesh);
 
 /// Takes positions and normals to the world, winds triangles as their normals say, and drops triangles without an area
 /// (a warning with their number), possibly all. False after an error: a vertex too far away.

@@ -1,23 +1,23 @@
 // rectangle: the square [-1, 1] x [-1, 1] of the xy plane, facing +z.
 //
-// Parameters
-//   to_world      transform (default identity)
-//   flip_normals  boolean (default false): face -z instead
 // Two triangles; texture coordinates run from (0, 0) at (-1, -1) to (1, 1) at (1, 1). The normal is that of Mitsuba:
 // +z taken through the inverse transpose of `to_world`, so a mirroring placement does not turn it around.
-#include <fmt/format.h>
-
 #include <glm/matrix.hpp>
 
-#include "compile/plugins.h"
 #include "shape/mesh_host.h"
 
 namespace norrsken {
+namespace {
 
-std::optional<ShapeGeometry> compile_shape_rectangle(Parameters& p, Builder& builder) {
-  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
-  const bool flip_normals = p.boolean("flip_normals", false);
-  builder.describe(p.node(), "2 triangles");
+constexpr TransformParameter kToWorld{.name = "to_world", .text = "", .flat = Flat::yes};
+constexpr BooleanParameter kFlipNormals{.name = "flip_normals", .text = "face -z instead"};
+
+}  // namespace
+
+std::optional<ShapeGeometry> compile_shape_rectangle(Parameters& p, Shapes& shapes) {
+  const glm::dmat4 to_world = p.read(kToWorld);
+  const bool flip_normals = p.read(kFlipNormals);
+  shapes.describe(p.node(), "2 triangles");
 
   ShapeGeometry geometry;
   geometry.mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};

@@ -1,19 +1,12 @@
 // sdfgrid: the surface of a signed distance function that is sampled on a grid, the values interpolated trilinearly.
 //
-// Parameters
-//   filename    path to a volume file (.vol) of one channel: the values at the vertices of a grid that fills the cube from
-//               (0, 0, 0) to (1, 1, 1), whatever bounding box the file tells; 2 or more along each axis; negative inside
-//   normals     smooth (default): shading normals without steps between voxels; analytic: the gradient of the interpolation
-//   to_world    transform (default identity); any that is not singular
-//   watertight  boolean (default true): taken and of no effect. In Mitsuba 3.5 and 3.6 it closes the gaps between voxels;
-//               here, and in later Mitsubas, there are none
 // The values need not be distances: what counts is where they change from negative to 0 or more, which is outside. The
 // surface is open where it meets the cube's faces. It has no texture coordinates: textures are looked up at (0, 0).
 // Departures: grids that only touch 0 without being negative anywhere have no surface here. As a light (Mitsuba has none of
 // this shape) it is found by rays alone, so path renders it, noisily if it is small, and ptracer does not.
 #include "shape/sdfgrid.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>
@@ -21,25 +14,44 @@
 #include <glm/geometric.hpp>
 
 #include "base/text.h"
-#include "compile/plugins.h"
+#include "compile/shapes.h"
 #include "formats/vol.h"
 #include "shape/analytic_host.h"
+#include "shape/shape_file_host.h"
 
 namespace norrsken {
 namespace {
 
+constexpr FileParameter kFilename{
+    .name = "filename",
+    .text =
+        "a volume file (.vol) of one channel: the values at the vertices of a grid that fills the cube from (0, 0, 0) "
+        "to "
+        "(1, 1, 1), whatever bounding box the file tells; 2 or more along each axis; negative inside"};
+constexpr ChoiceParameter<bool> kIsSmooth{
+    .name = "normals",
+    .words = {{{"smooth", true}, {"analytic", false}}},
+    .text = "shading normals without steps between voxels, or the gradient of the interpolation"};
+constexpr TransformParameter kToWorld{.name = "to_world", .text = "any that is not singular"};
+constexpr BooleanParameter kWatertight{.name = "watertight",
+                                       .fallback = true,
+                                       .text =
+                                           "taken and of no effect. In Mitsuba 3.5 and 3.6 it closes the gaps between "
+                                           "voxels; here, and in later Mitsubas, "
+                                           "there are none"};
+
 /// Signed 32-bit lanes count the numbers of all tables.
 constexpr std::size_t kMaxNumbers = std::size_t{1} << 31;
 
-std::optional<VolumeData> read_grid(const std::string& path, Parameters& p, Builder& builder) {
+std::optional<VolumeData> read_grid(const std::string& path, Parameters& p, Shapes& shapes) {
   std::string problem;
-  const std::optional<FileContents> contents = read_counted(builder.files(), path, problem);
+  const std::optional<FileContents> contents = read_counted(shapes.files(), path, problem);
   if (!contents) {
-    p.error("filename", fmt::format("cannot read {}: {}", quoted(path, 200), problem), "a readable .vol file");
+    p.error(kFilename.name, fmt::format("cannot read {}: {}", quoted(path, 200), problem), "a readable .vol file");
     return std::nullopt;
   }
-  builder.diagnostics().named_at(path, p.where("filename"));
-  return read_vol(contents->bytes, path, builder.diagnostics());
+  p.diagnostics().named_at(path, p.where(kFilename.name));
+  return read_vol(contents->bytes, path, p.diagnostics());
 }
 
 /// The shape's table without its head; voxels behind the values.
@@ -93,17 +105,17 @@ void append_values(const Array<float>& values, Array<float>& table) {
 
 }  // namespace
 
-std::optional<ShapeGeometry> compile_shape_sdfgrid(Parameters& p, Builder& builder) {
-  const std::string path = p.file("filename");
-  const bool smooth = p.choice("normals", "smooth", {"analytic", "smooth"}) == "smooth";
-  const glm::dmat4 to_world = p.transform("to_world");
-  p.boolean("watertight", true);
+std::optional<ShapeGeometry> compile_shape_sdfgrid(Parameters& p, Shapes& shapes) {
+  const std::string path = p.read(kFilename);
+  const bool smooth = p.read(kIsSmooth);
+  const glm::dmat4 to_world = p.read(kToWorld);
+  p.read(kWatertight);
   if (path.empty()) return std::nullopt;
 
-  const std::optional<VolumeData> volume = read_grid(path, p, builder);
+  const std::optional<VolumeData> volume = read_grid(path, p, shapes);
   if (!volume) return std::nullopt;
   const auto refuse = [&](std::string message, std::string accepted) {
-    p.error("filename", std::move(message), std::move(accepted));
+    p.error(kFilename.name, std::move(message), std::move(accepted));
     return std::nullopt;
   };
   const auto& size = volume->size;
@@ -116,7 +128,7 @@ std::optional<ShapeGeometry> compile_shape_sdfgrid(Parameters& p, Builder& build
                   "values that are negative inside, 0 or more outside");
 
   const std::size_t numbers = SdfGridTable::kValues + volume->values.size() + voxels.numbers().size();
-  if (builder.tables().texels.size() + numbers > kMaxNumbers)
+  if (shapes.texel_count() + numbers > kMaxNumbers)
     return refuse("the scene's grids and images are too large", fmt::format("{} values in all", kMaxNumbers));
 
   AnalyticShape shape{.kind = AnalyticKind::sdfgrid,
@@ -135,7 +147,7 @@ std::optional<ShapeGeometry> compile_shape_sdfgrid(Parameters& p, Builder& build
   append_values(volume->values, shape.table);
   for (const std::uint32_t number : voxels.numbers()) shape.table.push_back(std::bit_cast<float>(number));
   shape.element_count = static_cast<std::uint32_t>(voxels.numbers().size());
-  builder.describe(p.node(), fmt::format("{}, {} voxels{}", grid, shape.element_count, smooth ? ", smooth" : ""));
+  shapes.describe(p.node(), fmt::format("{}, {} voxels{}", grid, shape.element_count, smooth ? ", smooth" : ""));
   return place_analytic(shape, p);
 }
 

@@ -1,20 +1,21 @@
 #include "shape/shape_file_host.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 
 namespace norrsken {
 
-std::optional<FileContents> read_shape_file(const std::string& path, Parameters& p, Builder& builder) {
+std::optional<FileContents> read_shape_file(const std::string& path, std::string_view parameter, Parameters& p,
+                                            Shapes& shapes) {
   std::string problem;
-  std::optional<FileContents> contents = read_counted(builder.files(), path, problem);
+  std::optional<FileContents> contents = read_counted(shapes.files(), path, problem);
   if (!contents) {
-    p.error("filename", fmt::format("cannot read {}: {}", quoted(path, 200), problem),
+    p.error(parameter, fmt::format("cannot read {}: {}", quoted(path, 200), problem),
             fmt::format("a readable {} file", p.node().plugin));
     return std::nullopt;
   }
-  builder.diagnostics().named_at(path, p.where("filename"));
+  p.diagnostics().named_at(path, p.where(parameter));
   return contents;
 }
 

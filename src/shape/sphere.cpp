@@ -1,24 +1,27 @@
 // sphere: centre and radius.
 //
-// Parameters
-//   center        point, scene units (default 0 0 0)
-//   radius        number from 0, scene units (default 1)
-//   to_world      transform (default identity), applied to the sphere of that centre and radius; its scale must be the
-//                 same in all directions; up to a percent that it differs by is left out
-//   flip_normals  boolean (default false): the normal points to the centre
 // u turns around the local z axis, v goes from the pole at +z to that at -z. A mirroring `to_world` turns the normal around, as in Mitsuba.
 // Departures: Mitsuba warns of a scale that differs between directions and renders a sphere; here it is an error.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
 
-#include "compile/plugins.h"
+#include "compile/shapes.h"
 #include "shape/analytic_host.h"
 
 namespace norrsken {
 namespace {
+
+constexpr PointParameter kCenter{.name = "center", .unit = "scene units"};
+constexpr NumberParameter kRadius{.name = "radius", .fallback = 1, .range = {0, kMaxCoordinate}, .unit = "scene units"};
+constexpr TransformParameter kToWorld{.name = "to_world",
+                                      .text =
+                                          "applied to the sphere of that centre and radius; its scale must be the same "
+                                          "in all directions; up to a percent that it differs by is left out",
+                                      .flat = Flat::yes};
+constexpr BooleanParameter kFlipNormals{.name = "flip_normals", .text = "the normal points to the centre"};
 
 /// How far a linear map is from a rotation times `scale`, relative.
 double deviation_from_uniform(const glm::dmat3& linear, double scale) {
@@ -31,7 +34,7 @@ double deviation_from_uniform(const glm::dmat3& linear, double scale) {
 }
 
 /// Texture coordinates turn with the sphere. Returns where the rotation is stored, kNone if there is none.
-std::uint32_t store_rotation(const glm::dmat3& object_from_world, Builder& builder) {
+std::uint32_t store_rotation(const glm::dmat3& object_from_world, Shapes& shapes) {
   const auto is_rounding = [](double difference) { return std::abs(difference) < 1e-12; };
   bool rotated = false;
   for (int i = 0; i < 9; ++i) rotated |= !is_rounding(object_from_world[i / 3][i % 3] - (i % 4 == 0));
@@ -41,16 +44,16 @@ std::uint32_t store_rotation(const glm::dmat3& object_from_world, Builder& build
     for (int column = 0; column < 3; ++column)
       rows[3 * row + column] = static_cast<float>(object_from_world[column][row]);
   }
-  return builder.add_parameters(rows);
+  return shapes.store_rotation(rows);
 }
 
 }  // namespace
 
-std::optional<ShapeGeometry> compile_shape_sphere(Parameters& p, Builder& builder) {
-  const glm::dvec3 center = p.point("center", glm::dvec3(0));
-  const double radius = p.number("radius", 1, 0, kMaxCoordinate);
-  const glm::dmat4 to_world = p.transform("to_world", Flat::yes);
-  const bool flip_normals = p.boolean("flip_normals", false);
+std::optional<ShapeGeometry> compile_shape_sphere(Parameters& p, Shapes& shapes) {
+  const glm::dvec3 center = p.read(kCenter);
+  const double radius = p.read(kRadius);
+  const glm::dmat4 to_world = p.read(kToWorld);
+  const bool flip_normals = p.read(kFlipNormals);
 
   const glm::dmat3 linear(to_world);
   const double determinant = glm::determinant(linear);
@@ -64,7 +67,7 @@ std::optional<ShapeGeometry> compile_shape_sphere(Parameters& p, Builder& builde
   const double world_radius = radius * scale;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(world_center[axis]) <= kMaxCoordinate) || !(world_radius <= kMaxCoordinate)) {
-      p.error("to_world", "the sphere is placed too far away or made too large",
+      p.error(kToWorld.name, "the sphere is placed too far away or made too large",
               fmt::format("coordinates up to {:g}", kMaxCoordinate));
       return std::nullopt;
     }
@@ -72,9 +75,9 @@ std::optional<ShapeGeometry> compile_shape_sphere(Parameters& p, Builder& builde
   if (!std::isnormal(static_cast<float>(world_radius))) {
     return nothing_to_draw(p, "radius", world_radius);
   }
-  builder.describe(p.node(), fmt::format("radius {:.6g}", world_radius));
+  shapes.describe(p.node(), fmt::format("radius {:.6g}", world_radius));
   ShapeGeometry geometry;
-  const std::uint32_t rotation = store_rotation(glm::transpose(linear / scale), builder);
+  const std::uint32_t rotation = store_rotation(glm::transpose(linear / scale), shapes);
   geometry.spheres.push_back({world_center, world_radius, flip_normals != (determinant < 0), rotation});
   return geometry;
 }

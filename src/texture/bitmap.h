@@ -9,10 +9,17 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Stored: to_uv (6 floats), width, height, then words: first texel, stride, byte table, wrap modes (that of
-/// u and 4 times that of v), 1 if nearest. See
-/// StoredImage in compile/images.h.
 struct Bitmap {
+  /// See StoredImage in compile/images.h.
+  struct Stored {
+    static constexpr TextureKind kKind = TextureKind::bitmap;
+    ToUvSlots to_uv;
+    float width, height;
+    std::uint32_t texels, stride, table;
+    std::uint32_t wrap_modes;  ///< that of u, and 4 times that of v
+    std::uint32_t nearest;     ///< 1 if it is
+  };
+
   /// The image of each lane, and the four texels around a place.
   struct Lookup {
     UInt texels, stride, table;
@@ -51,12 +58,12 @@ struct Bitmap {
 
  private:
   static NORRSKEN_INLINE Lookup look_up(const SceneView& scene, UInt offset, const TexturePoint& point, Mask active) {
-    const auto word = [&](int k) { return gather_uint(scene.parameters + k, offset, active); };
+    const auto stored = [&](auto member) { return gather_slot(scene.parameters, member, offset, active); };
     Lookup l;
-    l.size = {gather(scene.parameters + 6, offset, active), gather(scene.parameters + 7, offset, active)};
-    l.texels = word(8), l.stride = word(9), l.table = word(10);
-    const UInt wrap_u = word(11) & 3u, wrap_v = shift_right<2>(word(11));
-    l.bilinear = word(12) == 0u;
+    l.size = {stored(&Stored::width), stored(&Stored::height)};
+    l.texels = stored(&Stored::texels), l.stride = stored(&Stored::stride), l.table = stored(&Stored::table);
+    const UInt wrap = stored(&Stored::wrap_modes), wrap_u = wrap & 3u, wrap_v = shift_right<2>(wrap);
+    l.bilinear = stored(&Stored::nearest) == 0u;
 
     const Vec2f uv = to_uv(scene, offset, point.uv, active);
     const Float half = select(l.bilinear, Float(0.5f), Float(0.0f));

@@ -1,28 +1,30 @@
 // checkerboard: host side.
 //
-// Parameters
-//   color0, color1  color (defaults 0.4 and 0.2)
-//   to_uv           transform (default identity): of texture coordinates, in x and y
 // Where it stands for a number, such as a roughness, that is the mean of a colour, and the two change places: so do
 // Mitsuba's images show it.
-// Stored: to_uv (6 floats), color0 (3), color1 (3); and again for numbers.
+#include "texture/checkerboard.h"
+
 #include <algorithm>
 #include <glm/common.hpp>
-#include <limits>
 
-#include "compile/plugins.h"
+#include "compile/textures.h"
+#include "texture/texture_host.h"
 
 namespace norrsken {
+namespace {
 
-Texture compile_texture_checkerboard(Parameters& p, Builder& builder) {
-  constexpr double kAny = std::numeric_limits<double>::infinity();
-  const glm::dvec3 color0 = p.color("color0", glm::dvec3(0.4), -kAny, kAny);
-  const glm::dvec3 color1 = p.color("color1", glm::dvec3(0.2), -kAny, kAny);
-  const glm::dmat4 transform = p.transform("to_uv");
-  const auto add = [&](const glm::dvec3& first, const glm::dvec3& second) {
-    ParameterBlock block;
-    add_to_uv(block, transform);
-    return builder.add_texture(TextureKind::checkerboard, block.add_values(first).add_values(second));
+constexpr ColorParameter kColor0{
+    .name = "color0", .fallback = 0.4, .text = "where both coordinates are in the same half of their unit"};
+constexpr ColorParameter kColor1{.name = "color1", .fallback = 0.2, .text = "elsewhere"};
+
+}  // namespace
+
+Texture compile_texture_checkerboard(Parameters& p, Textures& textures) {
+  const glm::dvec3 color0 = p.read(kColor0).rgb(), color1 = p.read(kColor1).rgb();
+  const isa_host::ToUvSlots to_uv = to_uv_slots(p.read(kToUv));
+  const auto add = [&](const glm::vec3& first, const glm::vec3& second) {
+    return textures.add(isa_host::Checkerboard::Stored{
+        .to_uv = to_uv, .color0 = {{first.x, first.y, first.z}}, .color1 = {{second.x, second.y, second.z}}});
   };
   const glm::dvec3 low = glm::min(color0, color1), high = glm::max(color0, color1);
   Texture texture;

@@ -8,14 +8,19 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Stored: to_uv (6 floats), color0 (3), color1 (3).
 struct Checkerboard {
+  struct Stored {
+    static constexpr TextureKind kKind = TextureKind::checkerboard;
+    ToUvSlots to_uv;
+    ValuesSlot color0, color1;
+  };
+
   static NORRSKEN_INLINE Color evaluate(const SceneView& scene, UInt offset, const TexturePoint& point, Mask active) {
     const Vec2f uv = to_uv(scene, offset, point.uv, active);
     // color0 where both coordinates are in the same half of their unit.
     const Mask right = uv.x - floor(uv.x) > 0.5f, upper = uv.y - floor(uv.y) > 0.5f;
-    const Color color0 = gather_color(scene.parameters + 6, offset, active);
-    const Color color1 = gather_color(scene.parameters + 9, offset, active);
+    const Color color0 = gather_slot(scene.parameters, &Stored::color0, offset, active);
+    const Color color1 = gather_slot(scene.parameters, &Stored::color1, offset, active);
     return select(right ^ upper, color1, color0);
   }
 };

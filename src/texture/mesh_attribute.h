@@ -8,13 +8,18 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-/// Stored: scale, then the word of a table among the texels, with two words for each shape: where the value of the
-/// scene's vertex or triangle 0 would be, and the number of channels with 4 added for one value per triangle. 0: the
-/// shape has no such attribute.
 struct MeshAttribute {
+  struct Stored {
+    static constexpr TextureKind kKind = TextureKind::mesh_attribute;
+    float scale;
+    /// Offset of a table among the texels, with two words for each shape: where the value of the scene's vertex or triangle
+    /// 0 would be, and the number of channels with 4 added for one value per triangle. 0: the shape has no such attribute.
+    std::uint32_t table;
+  };
+
   static NORRSKEN_INLINE Color evaluate(const SceneView& scene, UInt offset, const TexturePoint& point, Mask active) {
-    const Float scale = gather(scene.parameters, offset, active);
-    const UInt entry = gather_uint(scene.parameters + 1, offset, active) + point.shape + point.shape;
+    const Float scale = gather_slot(scene.parameters, &Stored::scale, offset, active);
+    const UInt entry = gather_slot(scene.parameters, &Stored::table, offset, active) + point.shape + point.shape;
     const UInt first = gather_uint(scene.texels, entry, active), layout = gather_uint(scene.texels + 1, entry, active);
     const UInt channels = layout & 3u;
     active &= channels != 0u;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "texture/models.h"
+#include "texture/slots.h"
 #include "texture/texture.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -20,8 +21,7 @@ inline Color evaluate_texture(const SceneView& scene, UInt words, TexturePoint p
   return color;
 }
 
-/// The parameters of the model that is stored at `offset`, for lanes of one kind of model. `k` counts floats in the
-/// order in which the host's ParameterBlock was filled.
+/// The parameters of the model that is stored at `offset`, for lanes of one kind of model: `get(&Stored::roughness)`.
 struct ParameterReader {
   const SceneView& scene;
   UInt offset;
@@ -29,19 +29,45 @@ struct ParameterReader {
   Mask active;
   bool any_textures = scene.texture_kinds != 0;  ///< told apart, for a PlainScene knows it when it is compiled
 
-  /// A plain float.
+  /// A member of the block, or of a block inside of it: what its texture has at the place, if it has one.
+  template <class... Members>
+  NORRSKEN_INLINE auto get(Members... path) const {
+    return slot<SlotOf<Members...>>(floats_before(path...));
+  }
+
+ private:
+  template <class... Members>
+  struct Last;
+  template <class Block, class Slot>
+  struct Last<Slot Block::*> {
+    using Type = Slot;
+  };
+  template <class First, class Second>
+  struct Last<First, Second> : Last<Second> {};
+  template <class... Members>
+  using SlotOf = typename Last<Members...>::Type;
+
+  template <class Slot>
+  NORRSKEN_INLINE auto slot(std::uint32_t k) const {
+    if constexpr (std::is_same_v<Slot, float>) {
+      return number(k);
+    } else if constexpr (std::is_same_v<Slot, std::uint32_t>) {
+      return gather_uint(scene.parameters + k, offset, active);
+    } else if constexpr (std::is_same_v<Slot, ColorSlot>) {
+      return color(k);
+    } else {
+      static_assert(std::is_same_v<Slot, NumberSlot>);
+      return scalar(k);
+    }
+  }
   NORRSKEN_INLINE Float number(std::uint32_t k) const { return gather(scene.parameters + k, offset, active); }
-  /// Three plain floats.
-  NORRSKEN_INLINE Color numbers3(std::uint32_t k) const { return gather_color(scene.parameters + k, offset, active); }
-  /// A colour or its texture: 4 floats.
   NORRSKEN_INLINE Color color(std::uint32_t k) const {
-    const Color value = numbers3(k);
+    const Color value = gather_color(scene.parameters + k, offset, active);
     if (!any_textures) return value;
     const UInt texture = gather_uint(scene.parameters + k + 3, offset, active);
     const Mask textured = active & (texture != 0u);
     return any(textured) ? select(textured, evaluate_texture(scene, texture, copied(point), textured), value) : value;
   }
-  /// A number or its texture: 2 floats.
   NORRSKEN_INLINE Float scalar(std::uint32_t k) const {
     const Float value = number(k);
     if (!any_textures) return value;

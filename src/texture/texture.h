@@ -9,6 +9,7 @@
 #include "color/color.h"
 #include "math/warp.h"
 #include "tables/wave_types.h"
+#include "texture/slots.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -23,7 +24,12 @@ NORRSKEN_INLINE TexturePoint copied(const TexturePoint& p) {
   return {{p.uv.x, p.uv.y}, p.primitive, p.shape, {p.barycentric.x, p.barycentric.y}};
 }
 
-/// The affine map of texture coordinates whose six floats (two rows) are stored at `offset`.
+/// The affine map of texture coordinates that a texture's block begins with, row by row.
+struct ToUvSlots {
+  float rows[2][3];
+};
+
+/// The map at `offset`.
 NORRSKEN_INLINE Vec2f to_uv(const SceneView& scene, UInt offset, Vec2f uv, Mask active) {
   const auto element = [&](int k) { return gather(scene.parameters + k, offset, active); };
   return {fma(element(0), uv.x, fma(element(1), uv.y, element(2))),

@@ -68,8 +68,8 @@ struct EnteredMap {
 /// What is inside of the map `word`, for lanes with one. Not inlined: few scenes have one, and every BSDF would repeat it.
 __attribute__((noinline)) inline EnteredMap enter_map(const SceneView& scene, UInt word, Vec3f direction,
                                                       SurfacePoint point, MappedFrame around, Mask lanes) {
-  const ParameterReader parameters{scene, word & kMaterialOffsetMask, point.texture, lanes};
-  const UInt flags = bits(parameters.number(2));
+  const ParameterReader parameters{scene, word & UInt(kMaterialOffsetMask), point.texture, lanes};
+  const UInt flags = parameters.get(&PerturbedSlots::flags);
   // A map for the front that is seen from the back stands in a `twosided`, which mirrors directions in the surface there.
   const Mask made_for_back = (flags & kPerturbBack) != 0u;
   const Mask mirrored = lanes & (around.from_back(direction) ^ made_for_back);

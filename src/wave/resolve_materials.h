@@ -21,7 +21,8 @@ NORRSKEN_INLINE void look_behind_map(const SceneView& scene, const SurfacePoint&
   }
   frame = enter_map(scene, map, copied(hit.ray.direction), copied(surface), frame, maps).inside;
   const UInt back = select(frame.from_back(hit.ray.direction), UInt(1u), UInt(0u));
-  const UInt behind = gather_uint(scene.parameters, (map & kMaterialOffsetMask) + back, maps);
+  const float* inside = scene.parameters + floats_before(&PerturbedSlots::inside);
+  const UInt behind = gather_uint(inside, (map & UInt(kMaterialOffsetMask)) + back, maps);
   hit.material = select(maps, behind, hit.material);
 }
 

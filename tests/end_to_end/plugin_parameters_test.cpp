@@ -1,10 +1,12 @@
-// Every plugin of every family's list and every one of its parameters: right, missing, of the wrong type, out of range,
-// unused. A plugin or a parameter that is not in the table fails the test.
+// Every plugin of every family's list and every one of its parameters: right, missing, of the wrong type, out of range, not
+// finite, unused. The values follow from what plugins() tells of the parameter, by rules; plugin_values.h has the few that
+// do not.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -15,20 +17,131 @@
 #include "norrsken/plugins.h"
 #include "scene/base_parameters.h"
 #include "tests/end_to_end/format_parameters.h"
-#include "tests/end_to_end/plugin_parameters.h"
+#include "tests/end_to_end/plugin_values.h"
 
-namespace norrsken::testing {
+namespace norrsken {
+
+void PrintTo(const PluginInfo& plugin, std::ostream* out) { *out << plugin.kind << " " << plugin.name; }
+
+namespace testing {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-std::string element(const std::string& type, const std::string& name, const std::string& value) {
-  if (type == "transform") return fmt::format(R"(<transform name="{}">{}</transform>)", name, value);
-  if (type == "checkerboard") return fmt::format(R"(<texture name="{}" type="checkerboard"/>)", name);
-  return fmt::format(R"(<{} name="{}" value="{}"/>)", type, name, value);
+using Type = PluginParameter::Type;
+
+const std::vector<PluginInfo>& all_plugins() {
+  static const std::vector<PluginInfo> all = plugins();
+  return all;
 }
-std::string right(const Row& row) { return element(row.type, row.name, row.right); }
+
+const Value* value_of(const std::string& plugin, const PluginParameter& parameter) {
+  const auto* found = std::ranges::find_if(kValues, [&](const Value& value) {
+    return (value.plugin[0] == 0 || value.plugin == plugin) && value.parameter == parameter.name;
+  });
+  return found == std::end(kValues) ? nullptr : found;
+}
+
+/// The element that a scene file has for a parameter of that type.
+std::string tag_of(Type type) {
+  switch (type) {
+    case Type::boolean:
+      return "boolean";
+    case Type::integer:
+      return "integer";
+    case Type::number:
+      return "float";
+    case Type::color:
+      return "rgb";
+    case Type::spectrum:
+      return "spectrum";
+    case Type::point:
+      return "point";
+    case Type::transform:
+      return "transform";
+    case Type::texture:
+      return "texture";
+    default:
+      return "string";
+  }
+}
+
+std::string element(const std::string& tag, const std::string& name, const std::string& value) {
+  if (tag == "transform") return fmt::format(R"(<transform name="{}">{}</transform>)", name, value);
+  if (tag == "texture") return fmt::format(R"(<texture name="{}" type="checkerboard"/>)", name);
+  return fmt::format(R"(<{} name="{}" value="{}"/>)", tag, name, value);
+}
+
+/// In range, and not the fallback.
+std::string number_in_range(const PluginParameter& p) {
+  const double fallback = p.fallback.empty() ? 0 : std::stod(p.fallback);
+  if (p.type == Type::integer) {
+    const double next = fallback + 1;
+    const bool fits = !(p.max && next > *p.max) && !(p.min && next < *p.min);
+    return fmt::format("{}", static_cast<std::int64_t>(fits ? next : p.min.value_or(0)));
+  }
+  if (fallback != 0) return fmt::format("{}", 0.9 * fallback);
+  return fmt::format("{}", p.min.value_or(0) + (p.max ? (*p.max - p.min.value_or(0)) / 4 : 1));
+}
+
+std::string right_value(const std::string& plugin, const PluginParameter& p) {
+  if (const Value* value = value_of(plugin, p)) return value->right;
+  switch (p.type) {
+    case Type::boolean:
+      return p.fallback == "true" ? "false" : "true";
+    case Type::integer:
+    case Type::number:
+      return number_in_range(p);
+    case Type::color:
+      return "0.25, 0.5, 0.75";
+    case Type::point:
+      return "1, 2, 3";
+    case Type::transform:
+      return R"(<rotate z="1" angle="90"/>)";
+    default:
+      return p.choices.empty() ? "" : p.choices.back();
+  }
+}
+
+std::string right_element(const std::string& plugin, const PluginParameter& p) {
+  return element(tag_of(p.type), p.name, right_value(plugin, p));
+}
+
+/// A value that is not accepted, what the complaint has to name, and what it says is.
+struct Wrong {
+  std::string value, named, accepted;
+};
+
+/// "a number above 0 and at most 100"
+std::string in_words(const PluginParameter& p) {
+  const bool is_integer = p.type == Type::integer;
+  const std::string noun = is_integer ? "an integer" : p.type == Type::color ? "components" : "a number";
+  const auto text = [&](double bound) {
+    return is_integer ? std::to_string(static_cast<std::int64_t>(bound)) : fmt::format("{:g}", bound);
+  };
+  if (p.min && p.max && p.min_belongs) return fmt::format("{} from {} to {}", noun, text(*p.min), text(*p.max));
+  std::string words = noun;
+  if (p.min) words += (p.min_belongs ? " of at least " : " above ") + text(*p.min);
+  if (p.max) words += (p.min ? " and " : " ") + std::string(p.max_belongs ? "at most " : "below ") + text(*p.max);
+  return words;
+}
+
+std::vector<Wrong> wrong_values(const std::string& plugin, const PluginParameter& p) {
+  const Value* value = value_of(plugin, p);
+  if (value && value->wrong[0] != 0) return {{value->wrong, value->wrong, value->accepted}};
+  std::vector<Wrong> wrong;
+  if (p.type == Type::transform) return {{R"(<translate x="1e13"/>)", p.name, "elements up to 1e+12"}};
+  if (!p.choices.empty()) return {{"zzz", "zzz", fmt::format("{}", fmt::join(p.choices, ", "))}};
+  const auto add = [&](double number) {
+    const std::string text =
+        p.type == Type::integer ? std::to_string(static_cast<std::int64_t>(number)) : fmt::format("{}", number);
+    wrong.push_back({p.type == Type::color ? "0.5, " + text + ", 0.5" : text, text, in_words(p)});
+  };
+  if (p.min) add(p.min_belongs ? *p.min - 1 : *p.min);
+  if (p.max) add(p.max_belongs ? *p.max + 1 : *p.max);
+  return wrong;
+}
 
 const Files& assets() {
   static const Files files = [] {
@@ -44,13 +157,13 @@ const Files& assets() {
   return files;
 }
 
-class EveryPlugin : public ::testing::TestWithParam<Plugin> {
+class EveryPlugin : public ::testing::TestWithParam<PluginInfo> {
  protected:
   /// What is complained about if these elements are in the plugin, in a scene that is fine without it.
   static std::vector<std::string> errors(const std::string& inside) { return messages(inside, "error: "); }
   static std::vector<std::string> messages(const std::string& inside, std::string_view severity) {
-    const Plugin& p = GetParam();
-    const std::string kind = p.kind;
+    const PluginInfo& p = GetParam();
+    const std::string& kind = p.kind;
     std::string node = fmt::format(R"(<{0} type="{1}"{2}>{3}</{0}>)", kind, p.name,
                                    kind == "texture" ? R"( name="reflectance")" : "", inside);
     const std::string camera = R"(<sensor type="perspective">)";
@@ -60,7 +173,7 @@ class EveryPlugin : public ::testing::TestWithParam<Plugin> {
     if (kind == "rfilter") scene = camera + R"(<film type="hdrfilm">)" + node + "</film></sensor>";
     scene += kShape + kEmitter;
     if (kind == "integrator" || kind == "emitter") {
-      const bool on_a_shape = std::string(p.name).ends_with("area");
+      const bool on_a_shape = p.name.ends_with("area");
       scene += on_a_shape ? R"(<shape type="rectangle">)" + node + "</shape>" : node;
     }
     if (kind == "texture") node = R"(<bsdf type="diffuse">)" + node + "</bsdf>";
@@ -68,7 +181,7 @@ class EveryPlugin : public ::testing::TestWithParam<Plugin> {
       scene += R"(<shape type="ply"><string name="filename" value="knot.ply"/>)" + node + "</shape>";
     }
     if (kind == "shape") {
-      const bool is_group = p.name == std::string("shapegroup");
+      const bool is_group = p.name == "shapegroup";
       if (!is_group) scene += R"(<shape type="shapegroup" id="group"><shape type="sphere"/></shape>)";
       scene += node;
     }
@@ -76,118 +189,105 @@ class EveryPlugin : public ::testing::TestWithParam<Plugin> {
     std::erase_if(messages, [&](const std::string& message) { return !message.starts_with(severity); });
     return messages;
   }
-  /// `needed` and the required parameters but this one.
+  static std::string right(const PluginParameter& parameter) { return right_element(GetParam().name, parameter); }
+  /// What is needed and the required parameters but this one.
   static std::string context(std::string_view without) {
-    std::string elements = GetParam().needed;
-    for (const Row& row : GetParam().rows) {
-      const auto& required = GetParam().required;
-      const bool is_required = std::ranges::find(required, std::string_view(row.name)) != required.end();
-      if (is_required && row.name != without) elements += right(row);
+    std::string elements;
+    for (const Needed& needed : kNeeded) {
+      if (needed.kind == GetParam().kind && needed.plugin == GetParam().name) elements = needed.elements;
     }
-    // A slope on one side alone has no meaning.
-    if (without == "alpha_u") elements += element("float", "alpha_v", "0.3");
-    if (without == "alpha_v") elements += element("float", "alpha_u", "0.3");
+    for (const PluginParameter& parameter : GetParam().parameters) {
+      if (parameter.is_required && parameter.name != without) elements += right(parameter);
+      // A slope on one side alone has no meaning.
+      const bool is_other_slope = (without == "alpha_u" && parameter.name == "alpha_v") ||
+                                  (without == "alpha_v" && parameter.name == "alpha_u");
+      if (is_other_slope) elements += right(parameter);
+    }
     return elements;
   }
 };
 
 TEST_P(EveryPlugin, TakesWhatIsRightAndCanDoWithoutIt) {
   EXPECT_THAT(errors(context("")), IsEmpty());
-  for (const Row& row : GetParam().rows) {
-    SCOPED_TRACE(row.name);
-    EXPECT_THAT(errors(context(row.name) + right(row)), IsEmpty());
-  }
-  for (const char* name : GetParam().required) {
-    const auto complaints = errors(context(name));
-    ASSERT_THAT(complaints, ::testing::SizeIs(1)) << name;
-    EXPECT_THAT(complaints[0], ::testing::HasSubstr(fmt::format("{} '{}' ", GetParam().kind, GetParam().name)));
+  for (const PluginParameter& parameter : GetParam().parameters) {
+    SCOPED_TRACE(parameter.name);
+    EXPECT_THAT(errors(context(parameter.name) + right(parameter)), IsEmpty());
+    if (parameter.may_be_texture && GetParam().kind == "bsdf") {
+      EXPECT_THAT(errors(context(parameter.name) + element("texture", parameter.name, "")), IsEmpty());
+    }
+    if (!parameter.is_required) continue;
+    const auto complaints = errors(context(parameter.name));
+    ASSERT_THAT(complaints, ::testing::SizeIs(1));
+    EXPECT_THAT(complaints[0], ::testing::HasSubstr(fmt::format("{} '{}' needs a parameter '{}'", GetParam().kind,
+                                                                GetParam().name, parameter.name)));
   }
 }
 
 TEST_P(EveryPlugin, RefusesWrongTypes) {
-  for (const Row& row : GetParam().rows) {
-    SCOPED_TRACE(row.name);
-    const std::string type = row.type == std::string("transform") ? "boolean" : "transform";
-    const auto complaints = errors(context(row.name) + element(type, row.name, type == "boolean" ? "true" : ""));
+  for (const PluginParameter& parameter : GetParam().parameters) {
+    SCOPED_TRACE(parameter.name);
+    const std::string type = parameter.type == Type::transform ? "boolean" : "transform";
+    const auto complaints =
+        errors(context(parameter.name) + element(type, parameter.name, type == "boolean" ? "true" : ""));
     ASSERT_FALSE(complaints.empty());
-    EXPECT_THAT(complaints[0], ::testing::StartsWith(fmt::format("error: '{}' is a {} [", row.name, type)));
+    EXPECT_THAT(complaints[0], ::testing::StartsWith(fmt::format("error: '{}' is a {} [", parameter.name, type)));
   }
 }
 
+/// Or brings it into the range, and says so.
 TEST_P(EveryPlugin, RefusesWhatIsOutOfRange) {
-  for (const Row& row : GetParam().rows) {
-    if (row.wrong[0] == 0) continue;
-    SCOPED_TRACE(row.name);
-    const auto complaints = errors(context(row.name) + element(row.type, row.name, row.wrong));
-    ASSERT_THAT(complaints, ::testing::SizeIs(1));
-    EXPECT_THAT(complaints[0], ::testing::HasSubstr(row.type == std::string("transform") ? row.name : row.wrong));
-    const std::string end = row.accepted[0] != 0 ? fmt::format("[{}]", row.accepted) : "";
-    EXPECT_THAT(complaints[0], ::testing::EndsWith(end));
+  for (const PluginParameter& parameter : GetParam().parameters) {
+    for (const auto& [value, named, accepted] : wrong_values(GetParam().name, parameter)) {
+      SCOPED_TRACE(parameter.name + " " + value);
+      const std::string inside = context(parameter.name) + element(tag_of(parameter.type), parameter.name, value);
+      const auto complaints = messages(inside, "");
+      const std::string end = accepted.empty() ? "" : fmt::format("[{}]", accepted);
+      const auto is_it = [&](const std::string& message) {
+        return message.find(named) != std::string::npos && message.ends_with(end) &&
+               (message.starts_with("error: ") || message.find("taken for") != std::string::npos);
+      };
+      EXPECT_EQ(std::ranges::count_if(complaints, is_it), 1) << ::testing::PrintToString(complaints) << end;
+      EXPECT_LE(errors(inside).size(), 1u);
+    }
   }
 }
 
-/// The list of what is accepted is that of the table, so the table has every parameter.
+TEST_P(EveryPlugin, RefusesWhatIsNotFinite) {
+  for (const PluginParameter& parameter : GetParam().parameters) {
+    if (parameter.type != Type::number && parameter.type != Type::color && parameter.type != Type::point) continue;
+    for (const std::string number : {"nan", "inf", "1e999"}) {
+      SCOPED_TRACE(parameter.name + " " + number);
+      const std::string value = parameter.type == Type::number ? number : "0.5, " + number + ", 0.5";
+      const auto complaints = errors(context(parameter.name) + element(tag_of(parameter.type), parameter.name, value));
+      ASSERT_FALSE(complaints.empty());
+      EXPECT_THAT(complaints[0], ::testing::HasSubstr(number));
+    }
+  }
+}
+
+/// What is asked for is what is told.
 TEST_P(EveryPlugin, NamesItsParametersIfOneIsUnused) {
   std::set<std::string> names;
-  for (const Row& row : GetParam().rows) names.insert(row.name);
-  // Read where the other one of a pair is not given.
-  std::string accepted;
-  for (const std::string& name : names) accepted += (accepted.empty() ? "" : ", ") + name;
+  for (const PluginParameter& parameter : GetParam().parameters) names.insert(parameter.name);
   const auto complaints = errors(context("") + R"(<float name="zzz" value="1"/>)");
-  EXPECT_THAT(complaints, ElementsAre(fmt::format("error: unused parameter 'zzz' of {} '{}' [{}]", GetParam().kind,
-                                                  GetParam().name, accepted.empty() ? "no parameters" : accepted)));
+  EXPECT_THAT(complaints,
+              ElementsAre(fmt::format("error: unused parameter 'zzz' of {} '{}' [{}]", GetParam().kind, GetParam().name,
+                                      names.empty() ? "no parameters" : fmt::format("{}", fmt::join(names, ", ")))));
 }
 
-/// Whether a value of the type that a scene file writes may be that of the parameter.
-bool takes(const PluginParameter& parameter, std::string_view type) {
-  using Type = PluginParameter::Type;
-  if (type == "checkerboard") return parameter.may_be_texture;
-  switch (parameter.type) {
-    case Type::boolean:
-      return type == "boolean";
-    case Type::integer:
-      return type == "integer";
-    case Type::number:
-      return type == "float";
-    case Type::color:
-      return type == "rgb" || type == "float";
-    case Type::spectrum:
-      return type == "spectrum";
-    case Type::point:
-      return type == "point" || type == "vector";
-    case Type::transform:
-      return type == "transform";
-    case Type::texture:
-      return false;
-    default:
-      return type == "string";
-  }
-}
-
-/// What plugins() tells is what the readers take: all of it, and nothing else.
-TEST_P(EveryPlugin, IsToldWithItsParameters) {
-  static const std::vector<PluginInfo> all = plugins();
-  const auto told = std::ranges::find_if(
-      all, [](const PluginInfo& plugin) { return plugin.kind == GetParam().kind && plugin.name == GetParam().name; });
-  ASSERT_NE(told, all.end());
-  EXPECT_FALSE(told->text.empty());
-  EXPECT_EQ(told->parameters.size(), GetParam().rows.size());
-  for (const Row& row : GetParam().rows) {
-    const auto parameter = std::ranges::find(told->parameters, row.name, &PluginParameter::name);
-    ASSERT_NE(parameter, told->parameters.end()) << row.name;
-    EXPECT_TRUE(takes(*parameter, row.type)) << row.name << " " << row.type;
-  }
-  for (const PluginParameter& parameter : told->parameters) {
-    EXPECT_FALSE(parameter.text.empty()) << parameter.name;
-    const auto& required = GetParam().required;
-    const bool is_required = std::ranges::find(required, std::string_view(parameter.name)) != required.end();
-    EXPECT_EQ(parameter.is_required, is_required) << parameter.name;
+TEST_P(EveryPlugin, IsTold) {
+  EXPECT_FALSE(GetParam().text.empty());
+  for (const PluginParameter& parameter : GetParam().parameters) {
     EXPECT_TRUE(!parameter.is_required || parameter.fallback.empty()) << parameter.name;
+    if (parameter.in_place_of.empty()) continue;
+    EXPECT_TRUE(std::ranges::any_of(GetParam().parameters, [&](const PluginParameter& other) {
+      return other.name == parameter.in_place_of;
+    })) << parameter.name;
   }
 }
 
 TEST(Plugins, TellRangesDefaultsAndUnits) {
-  const auto all = plugins();
+  const auto& all = all_plugins();
   const auto find = [&](const char* kind, const char* name, const char* parameter) {
     const auto plugin = std::ranges::find_if(all, [&](const auto& p) { return p.kind == kind && p.name == name; });
     return *std::ranges::find(plugin->parameters, parameter, &PluginParameter::name);
@@ -199,6 +299,8 @@ TEST(Plugins, TellRangesDefaultsAndUnits) {
   EXPECT_FALSE(fov.min_belongs);
   EXPECT_FALSE(fov.max_belongs);
   EXPECT_EQ(fov.unit, "degrees");
+  EXPECT_EQ(fov.in_place_of, "focal_length");
+  EXPECT_TRUE(fov.fallback.empty());
   const PluginParameter reflectance = find("bsdf", "diffuse", "reflectance");
   EXPECT_EQ(reflectance.type, PluginParameter::Type::color);
   EXPECT_EQ(reflectance.fallback, "0.5");
@@ -212,10 +314,10 @@ TEST(Plugins, TellRangesDefaultsAndUnits) {
   EXPECT_FALSE(find("sampler", "independent", "seed").max.has_value());
 }
 
-std::set<std::string> names_of_format(const Plugin& plugin) {
+std::set<std::string> names_of_format(const PluginInfo& plugin) {
   std::set<std::string> names;
   for (const FormatPlugin& of_format : kFormat) {
-    if (of_format.kind != std::string_view(plugin.kind) || of_format.name != std::string_view(plugin.name)) continue;
+    if (of_format.kind != plugin.kind || of_format.name != plugin.name) continue;
     for (const TextPiece& piece : split(of_format.parameters, " ")) names.emplace(piece.text);
   }
   return names;
@@ -234,10 +336,10 @@ std::string element_of(const BaseParameter& parameter) {
   }
 }
 
-/// Every name of the format is one of the table's, or one of the base classes' that have no effect: which is told.
+/// Every name of the format is one that the plugin has, or one of the base classes' that have no effect: which is told.
 TEST_P(EveryPlugin, TakesWhateverTheFormatDoes) {
   std::set<std::string> rows;
-  for (const Row& row : GetParam().rows) rows.insert(row.name);
+  for (const PluginParameter& parameter : GetParam().parameters) rows.insert(parameter.name);
   for (const std::string& name : names_of_format(GetParam())) {
     SCOPED_TRACE(name);
     if (rows.contains(name)) continue;
@@ -301,22 +403,15 @@ std::set<std::string> plugins_of_the_lists() {
   return listed;
 }
 
-/// Those of the table that a build has.
-std::vector<Plugin> tested_plugins() {
-  const auto listed = plugins_of_the_lists();
-  std::vector<Plugin> tested(std::begin(kPlugins), std::end(kPlugins));
-  std::erase_if(tested, [&](const Plugin& p) { return !listed.contains(std::string(p.kind) + " " + p.name); });
-  return tested;
-}
+INSTANTIATE_TEST_SUITE_P(, EveryPlugin, ::testing::ValuesIn(plugins()),
+                         [](const auto& test) { return test.param.kind + "_" + test.param.name; });
 
-INSTANTIATE_TEST_SUITE_P(, EveryPlugin, ::testing::ValuesIn(tested_plugins()),
-                         [](const auto& test) { return std::string(test.param.kind) + "_" + test.param.name; });
-
-TEST(PluginTable, HasEveryPluginOfTheLists) {
-  std::set<std::string> tested;
-  for (const Plugin& plugin : tested_plugins()) tested.insert(std::string(plugin.kind) + " " + plugin.name);
-  EXPECT_EQ(tested, plugins_of_the_lists());
+TEST(Plugins, AreThoseOfTheLists) {
+  std::set<std::string> told;
+  for (const PluginInfo& plugin : all_plugins()) told.insert(plugin.kind + " " + plugin.name);
+  EXPECT_EQ(told, plugins_of_the_lists());
 }
 
 }  // namespace
-}  // namespace norrsken::testing
+}  // namespace testing
+}  // namespace norrsken
