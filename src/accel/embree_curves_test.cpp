@@ -9,7 +9,7 @@
 
 #include "isa/kernel_testing.h"
 #include "tests/temporary_folder.h"
-#include "wave/surface.h"
+#include "wave/hits.h"
 
 namespace norrsken {
 namespace {
@@ -222,7 +222,7 @@ TEST(EmbreeCurves, NextRaysBeginOffTheSurface) {
         ++hits;
         isa_host::Hit hit{};
         hit.ray.origin = to_lanes(o), hit.ray.direction = to_lanes(d);
-        end_at(hit, closest_hit);
+        set_end(hit, closest_hit);
         const isa_host::SurfacePoint s = make_surface_point(scene.view(), hit, {true});
         EXPECT_LT(s.offset.v, 1e-3 * scene.scale());
         EXPECT_LT(glm::dot(to_dvec(s.normal), d), 1e-3);

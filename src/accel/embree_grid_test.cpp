@@ -10,7 +10,7 @@
 
 #include "isa/kernel_testing.h"
 #include "tests/temporary_folder.h"
-#include "wave/surface.h"
+#include "wave/hits.h"
 
 namespace norrsken {
 namespace {
@@ -218,7 +218,7 @@ TEST(EmbreeGrid, NextRaysBeginOffTheSurface) {
         const auto f = [](double x) { return static_cast<float>(x); };
         hit.ray.origin = {f(ray.origin.x), f(ray.origin.y), f(ray.origin.z)};
         hit.ray.direction = {f(ray.direction.x), f(ray.direction.y), f(ray.direction.z)};
-        end_at(hit, closest_hit);
+        set_end(hit, closest_hit);
         const isa_host::SurfacePoint s = make_surface_point(scene.view(), hit, {true});
         EXPECT_LT(s.offset.v, 1e-4 * scene.scale());
         const RayArrays& more = random.arrays();

@@ -12,7 +12,7 @@ namespace norrsken::NORRSKEN_ISA {
 struct Absorb {
   struct Parameters {};
   static NORRSKEN_INLINE Parameters load(const ParameterReader&) { return {}; }
-  static NORRSKEN_INLINE Color albedo(const Parameters&) { return {0.0f, 0.0f, 0.0f}; }
+  static NORRSKEN_INLINE Color albedo(const Parameters&) { return black(); }
 };
 
 }  // namespace norrsken::NORRSKEN_ISA

@@ -29,7 +29,7 @@ struct Conductor {
     return {p.get(&Stored::specular_reflectance), p.get(&Stored::eta), p.get(&Stored::k)};
   }
 
-  static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return {0.0f, 0.0f, 0.0f}; }
+  static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return black(); }
 
   static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return 0.0f; }
 

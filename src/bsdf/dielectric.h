@@ -32,7 +32,7 @@ struct Dielectric {
     return {p.get(&Stored::specular_reflectance), p.get(&Stored::specular_transmittance), p.get(&Stored::eta)};
   }
 
-  static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return {0.0f, 0.0f, 0.0f}; }
+  static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return black(); }
 
   static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return 0.0f; }
 

@@ -17,15 +17,15 @@ struct Null {
 
   static NORRSKEN_INLINE Parameters load(const ParameterReader&) { return {}; }
 
-  static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return {0.0f, 0.0f, 0.0f}; }
+  static NORRSKEN_INLINE Color evaluate(const Parameters&, const Vec3f&, const Vec3f&) { return black(); }
 
   static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return 0.0f; }
 
   static NORRSKEN_INLINE BsdfSample sample(const Parameters&, const Vec3f& wo, Float, Vec2f) {
-    return {-wo, {1.0f, 1.0f, 1.0f}, 0.0f, wo.z == wo.z};
+    return {-wo, white(), 0.0f, wo.z == wo.z};
   }
 
-  static NORRSKEN_INLINE Color albedo(const Parameters&) { return {1.0f, 1.0f, 1.0f}; }
+  static NORRSKEN_INLINE Color albedo(const Parameters&) { return white(); }
 };
 
 }  // namespace norrsken::NORRSKEN_ISA

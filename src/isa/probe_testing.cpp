@@ -16,8 +16,7 @@ namespace norrsken::NORRSKEN_ISA {
 namespace {
 
 void shade_surface_of_kind(const SceneView& scene, BsdfKind kind, std::uint32_t hit_number, bool roulette,
-                           const Queue<stored::Hit>& hits, const Slots& slots, Queue<stored::ShadowRay>& shadow_rays,
-                           Queue<stored::Ray>& next_rays) {
+                           const Hits& hits, const Slots& slots, ShadowRays& shadow_rays, Rays& next_rays) {
   const ShadeSettings settings{.hit_number = hit_number,
                                .end_light_sample = static_cast<std::uint32_t>(scene.integrator.emitter_samples),
                                .next_rays = true,

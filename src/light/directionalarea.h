@@ -14,7 +14,7 @@ namespace norrsken::NORRSKEN_ISA {
 template <class Surface>
 struct AlongNormals {
   static NORRSKEN_INLINE LightSample sample(const SceneView&, const Light&, const Vec3f& reference, Vec2f, Mask) {
-    return {reference, 1.0f, {0.0f, 0.0f, 0.0f}, Mask::none()};
+    return {reference, 1.0f, black(), Mask::none()};
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light&, const Vec3f&, const Vec3f&, Float, Mask) {

@@ -45,7 +45,7 @@ __attribute__((noinline)) inline LightChoice sample_one_of_many_lights(const Sce
   }
   const UInt light = picked.light;
   const UInt kinds = gather_light_kind(scene, light, active);
-  LightChoice choice{{reference, 1.0f, {0.0f, 0.0f, 0.0f}, never}, picked.prob, never};
+  LightChoice choice{{reference, 1.0f, black(), never}, picked.prob, never};
 #define NORRSKEN_LIGHT(kind, Model, is_delta)                                  \
   if (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind))) \
     add_light_kind<Model>(LightKind::kind, is_delta, scene, light, kinds, reference, u, active, choice);
@@ -100,7 +100,7 @@ inline Color environment_radiance(const SceneView& scene, Vec3f direction, Mask 
 #include "lists/environment.def"
 #undef NORRSKEN_ENVIRONMENT
     default:
-      return {0.0f, 0.0f, 0.0f};
+      return black();
   }
 }
 

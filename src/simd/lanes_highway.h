@@ -20,6 +20,9 @@ using IntTag = hn::FixedTag<std::int32_t, kLanes>;
 
 struct Mask {
   hn::Mask<FloatTag> v;
+  Mask() = default;
+  /// Of nothing else: a truth of one bit would be the first lane's.
+  NORRSKEN_INLINE Mask(hn::Mask<FloatTag> x) : v(x) {}
   static NORRSKEN_INLINE Mask none() { return {hn::FirstN(FloatTag(), 0)}; }
 };
 

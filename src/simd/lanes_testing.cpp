@@ -1,8 +1,14 @@
 #include "simd/lanes_testing.h"
 
+#include <type_traits>
+
 #include "simd/lanes.h"
 
 namespace norrsken::NORRSKEN_ISA {
+
+static_assert(kLanes == 1 || (!std::is_convertible_v<bool, Mask> && !std::is_constructible_v<Mask, bool>),
+              "a comparison of plain numbers is no mask: it would be the first lane's");
+
 namespace {
 
 void expect(bool ok, const char* what, std::uint32_t pattern, int lane, float got, float wanted, LaneReport& report) {

@@ -3,9 +3,8 @@
 
 #include "base/exact_sum.h"
 #include "color/srgb.h"
-#include "simd/lanes.h"
 #include "tables/film_view.h"
-#include "tables/wave_types.h"
+#include "wave/records.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -41,7 +40,7 @@ NORRSKEN_INLINE void add_squares_of_row(const SumPlanes& sums, const float* __re
 }
 
 /// Takes non-finite samples out of one row of pixels: their radiance becomes zero, their count is taken back.
-inline void drop_non_finite(const WaveJob& job, const FilmView& film, Queue<stored::Slot>& slots, std::uint32_t sample,
+inline void drop_non_finite(const WaveJob& job, const FilmView& film, Slots& slots, std::uint32_t sample,
                             std::uint32_t slot, std::uint32_t pixel, DroppedSamples& dropped) {
   for (std::uint32_t x = 0; x < job.width; ++x) {
     bool finite = true;
@@ -62,7 +61,7 @@ inline void drop_non_finite(const WaveJob& job, const FilmView& film, Queue<stor
 }
 
 /// Adds the second moments of a row's colours, XYZ, as weighted means have them.
-inline void add_moments(const FilmView& film, const Queue<stored::Slot>& slots, std::uint32_t slot, std::uint32_t pixel,
+inline void add_moments(const FilmView& film, const Slots& slots, std::uint32_t slot, std::uint32_t pixel,
                         std::uint32_t n) {
   const float* rgb[3];
   for (std::uint32_t k = 0; k < 3; ++k) rgb[k] = slots.field(&stored::Slot::radiance, k) + slot;
@@ -81,7 +80,7 @@ inline void add_moments(const FilmView& film, const Queue<stored::Slot>& slots, 
 }
 
 /// Applies the weights that the reconstruction filter gave the samples of a row.
-NORRSKEN_INLINE void weigh_row(Queue<stored::Slot>& slots, std::uint32_t slot, std::uint32_t n) {
+NORRSKEN_INLINE void weigh_row(Slots& slots, std::uint32_t slot, std::uint32_t n) {
   const float* weights = slots.field(&stored::Slot::weight) + slot;
   for (std::uint32_t channel = 0; channel < 3; ++channel) {
     float* values = slots.field(&stored::Slot::radiance, channel) + slot;
@@ -89,7 +88,7 @@ NORRSKEN_INLINE void weigh_row(Queue<stored::Slot>& slots, std::uint32_t slot, s
   }
 }
 
-inline void accumulate_film(const WaveJob& job, SamplerKind sampler, Queue<stored::Slot>& slots, const FilmView& film,
+inline void accumulate_film(const WaveJob& job, SamplerKind sampler, Slots& slots, const FilmView& film,
                             DroppedSamples& dropped) {
   for (std::uint32_t s = 0; s < job.sample_count; ++s) {
     const std::uint32_t sample = job.first_sample + s;
@@ -117,7 +116,7 @@ inline void accumulate_film(const WaveJob& job, SamplerKind sampler, Queue<store
 }
 
 /// Adds the features that the film has planes for; of those that have no mean, the pixel's first sample.
-inline void accumulate_features(const WaveJob& job, const Queue<stored::Slot>& slots, const FilmView& film) {
+inline void accumulate_features(const WaveJob& job, const Slots& slots, const FilmView& film) {
   for (std::uint32_t s = 0; s < job.sample_count; ++s) {
     for (std::uint32_t y = 0; y < job.height; ++y) {
       const std::uint32_t slot = s * job.pixel_stride() + y * job.width;

@@ -9,7 +9,7 @@ namespace norrsken::NORRSKEN_ISA {
 
 template <class Camera, class Filter>
 inline void generate_rays_of(const SceneView& scene, const Filter& filter, const WaveJob& job, Slots& slots,
-                             Queue<stored::Ray>& rays) {
+                             Rays& rays) {
   const Sampler sampler{scene.sampler.kind};
   const FilmSettings& film = scene.film;
   const std::uint32_t pixels = job.pixel_count(), stride = job.pixel_stride();
@@ -52,7 +52,7 @@ inline void generate_rays_of(const SceneView& scene, const Filter& filter, const
 }
 
 /// The camera and the filter are the same for a whole render.
-inline void generate_camera_rays(const SceneView& scene, const WaveJob& job, Slots& slots, Queue<stored::Ray>& rays) {
+inline void generate_camera_rays(const SceneView& scene, const WaveJob& job, Slots& slots, Rays& rays) {
   const bool box = scene.film.filter.kind == FilterKind::box;
   switch (scene.camera.kind) {
 #define NORRSKEN_CAMERA(kind, Model)                                            \

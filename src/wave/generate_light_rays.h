@@ -22,7 +22,7 @@ NORRSKEN_INLINE SampleKey make_light_path_key(SamplerKind kind, std::uint64_t se
   return {key, UInt(round % rounds * paths) + path};
 }
 
-inline void generate_light_rays(const SceneView& scene, const WaveJob& job, Slots& slots, Queue<stored::Ray>& rays) {
+inline void generate_light_rays(const SceneView& scene, const WaveJob& job, Slots& slots, Rays& rays) {
   const Sampler sampler{scene.sampler.kind};
   const auto film_width = static_cast<std::uint32_t>(scene.film.width);
   const std::uint32_t paths = film_width * static_cast<std::uint32_t>(scene.film.height);

@@ -5,8 +5,6 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-using Hits = Queue<stored::Hit>;
-
 NORRSKEN_INLINE void set_end(Hit& hit, const ClosestHit& closest) {
   hit.t = closest.t;
   hit.primitive = closest.primitive_side & kPrimitiveMask;

@@ -49,8 +49,8 @@ NORRSKEN_INLINE UInt material_of(const SceneView& scene, const Hit& hit, UInt pr
 }
 
 /// Only hits of the BSDF kinds in the bit set `wanted_kinds` are kept. Rays from the camera end at its far plane.
-inline void intersect_closest(const SceneView& scene, bool from_camera, std::uint32_t wanted_kinds,
-                              const Queue<stored::Ray>& rays, Slots& slots, FoundQueues& found) {
+inline void intersect_closest(const SceneView& scene, bool from_camera, std::uint32_t wanted_kinds, const Rays& rays,
+                              Slots& slots, FoundQueues& found) {
   ClosestOfQueue hits(scene, from_camera, rays);
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     Mask active = first_lanes(rays.count - i);
@@ -78,8 +78,7 @@ inline void intersect_closest(const SceneView& scene, bool from_camera, std::uin
 
 /// The same for a path's last ray, of which only emission counts: rays that do not point at a light are not traced.
 /// They start on surfaces, so what cannot come between two points of the scene need not be looked at.
-inline void intersect_emitters(const SceneView& scene, const Queue<stored::Ray>& rays, Slots& slots,
-                               FoundQueues& found) {
+inline void intersect_emitters(const SceneView& scene, const Rays& rays, Slots& slots, FoundQueues& found) {
   ClosestOfQueue hits(scene, false, rays);
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     Mask active = first_lanes(rays.count - i);

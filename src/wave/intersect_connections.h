@@ -35,8 +35,7 @@ inline Mask hidden_by_others_than_emitters(const SceneView& scene, Vec3f origin,
   return hidden;
 }
 
-inline void intersect_connections(const SceneView& scene, const Queue<stored::Connection>& connections,
-                                  Queue<stored::Splat>& splats) {
+inline void intersect_connections(const SceneView& scene, const Connections& connections, Splats& splats) {
   const bool look_through = scene.integrator.hide_emitters && scene.any_area_light;
   OccludedOfQueue occluded(scene, connections);
   for (std::uint32_t i = 0; i < connections.count; i += kLanes) {

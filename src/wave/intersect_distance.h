@@ -7,7 +7,7 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-inline void intersect_distance(const SceneView& scene, const Queue<stored::Ray>& rays, Slots& slots) {
+inline void intersect_distance(const SceneView& scene, const Rays& rays, Slots& slots) {
   ClosestOfQueue hits(scene, true, rays);
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     const Ray ray = load<Ray>(scene, rays, i);

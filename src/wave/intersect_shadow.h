@@ -6,7 +6,7 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-inline void intersect_shadow(const SceneView& scene, const Queue<stored::ShadowRay>& shadow_rays, Slots& slots) {
+inline void intersect_shadow(const SceneView& scene, const ShadowRays& shadow_rays, Slots& slots) {
   OccludedOfQueue occluded(scene, shadow_rays);
   for (std::uint32_t i = 0; i < shadow_rays.count; i += kLanes) {
     const ShadowRay ray = load<ShadowRay>(scene, shadow_rays, i);

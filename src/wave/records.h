@@ -25,6 +25,13 @@ using FeatureValues = Float[kFeatureCount];
   ;
 #include "tables/records.def"
 
+using Slots = Queue<stored::Slot>;
+using Rays = Queue<stored::Ray>;
+using Hits = Queue<stored::Hit>;
+using ShadowRays = Queue<stored::ShadowRay>;
+using Connections = Queue<stored::Connection>;
+using Splats = Queue<stored::Splat>;
+
 /// Calls visit(k, field) for the fields that a queue of this scene holds; k is the field's first word.
 #define NORRSKEN_RECORD(Name)                                                                  \
   template <class Scene, class Lanes, class Visit>                                             \

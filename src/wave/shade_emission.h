@@ -6,7 +6,7 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-inline void shade_emission(const SceneView& scene, const Queue<stored::Hit>& light_hits, Slots& slots) {
+inline void shade_emission(const SceneView& scene, const Hits& light_hits, Slots& slots) {
   for (std::uint32_t i = 0; i < light_hits.count; i += kLanes) {
     const Mask active = first_lanes(light_hits.count - i);
     const Hit hit = load<Hit>(scene, light_hits, i);

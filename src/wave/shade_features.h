@@ -22,7 +22,7 @@ NORRSKEN_INLINE void store_feature(Slots& slots, std::uint32_t feature, UInt slo
 }
 
 template <class Model>
-inline void shade_features(const SceneView& scene, const Queue<stored::Hit>& hits, Slots& slots) {
+inline void shade_features(const SceneView& scene, const Hits& hits, Slots& slots) {
   for (std::uint32_t i = 0; i < hits.count; i += kLanes) {
     const Mask active = first_lanes(hits.count - i);
     const Hit hit = load<Hit>(scene, hits, i);

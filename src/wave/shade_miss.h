@@ -5,7 +5,7 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-inline void shade_miss(const SceneView& scene, const Queue<stored::Ray>& misses, Slots& slots) {
+inline void shade_miss(const SceneView& scene, const Rays& misses, Slots& slots) {
   for (std::uint32_t i = 0; i < misses.count; i += kLanes) {
     const Mask active = first_lanes(misses.count - i);
     const Ray ray = load<Ray>(scene, misses, i);

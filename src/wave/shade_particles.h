@@ -63,7 +63,7 @@ NORRSKEN_INLINE CameraConnection connect_point(const SceneView& scene, const Vec
 template <class Model>
 NORRSKEN_INLINE void connect_to_camera(const SceneView& scene, const Hit& hit, const SurfacePoint& surface,
                                        const typename Model::Parameters& bsdf, const Vec3f& wo_local, Vec2f lens,
-                                       Queue<stored::Connection>& connections, Mask active) {
+                                       Connections& connections, Mask active) {
   const CameraConnection camera = connect_point(scene, surface.position, lens);
   active &= camera.valid;
   if (scene.integrator.hide_emitters && scene.any_area_light) active &= !is_emitter(scene, hit.primitive, active);
@@ -95,7 +95,7 @@ template <class Model>
 NORRSKEN_INLINE void sample_next_particle(const SceneView& scene, const Sampler& sampler, const SampleKey& key,
                                           const ParticleSettings& settings, const Hit& hit, const SurfacePoint& surface,
                                           const typename Model::Parameters& bsdf, const Vec3f& wo_local,
-                                          Queue<stored::Ray>& next_rays, Mask active) {
+                                          Rays& next_rays, Mask active) {
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
   const BsdfSample sample = sample_bsdf<Model>(sampler, key, dimension, bsdf, wo_local);
   const Vec3f direction = surface.frame.to_world(sample.wi);
@@ -129,8 +129,8 @@ NORRSKEN_INLINE Vec2f lens_sample(const SceneView& scene, const Sampler& sampler
 }
 
 template <class Model>
-inline void shade_particles(const SceneView& scene, const ParticleSettings& settings, const Queue<stored::Hit>& hits,
-                            const Slots& slots, Queue<stored::Connection>& connections, Queue<stored::Ray>& next_rays) {
+inline void shade_particles(const SceneView& scene, const ParticleSettings& settings, const Hits& hits,
+                            const Slots& slots, Connections& connections, Rays& next_rays) {
   const Sampler sampler{scene.sampler.kind};
   for (std::uint32_t i = 0; i < hits.count; i += kLanes) {
     const Mask active = first_lanes(hits.count - i);

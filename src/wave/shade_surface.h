@@ -30,7 +30,7 @@ template <class Model, class Scene>
 NORRSKEN_INLINE void sample_lights(const Scene& scene, const ShadeSettings& settings, const Sampler& sampler,
                                    const SampleKey& key, const Hit& hit, const SurfacePoint& surface,
                                    const Perturbation& map, const typename Model::Parameters& bsdf, const Vec3f& wo,
-                                   Queue<stored::ShadowRay>& shadow_rays, Mask active) {
+                                   ShadowRays& shadow_rays, Mask active) {
   const auto n = static_cast<std::uint32_t>(scene.integrator.emitter_samples);
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
   const Float bsdf_samples(static_cast<float>(scene.integrator.bsdf_samples));
@@ -76,7 +76,7 @@ template <class Model, class Scene>
 NORRSKEN_INLINE void sample_next_ray(const Scene& scene, const ShadeSettings& settings, const Sampler& sampler,
                                      const SampleKey& key, const Hit& hit, const SurfacePoint& surface,
                                      const Perturbation& map, const typename Model::Parameters& bsdf, const Vec3f& wo,
-                                     Float path_eta2, Queue<stored::Ray>& next_rays, Mask active) {
+                                     Float path_eta2, Rays& next_rays, Mask active) {
   const std::uint32_t dimension = first_dimension_of_hit(settings.hit_number);
   const auto n = static_cast<std::uint32_t>(scene.integrator.bsdf_samples);
   const SampleKey k = sampler.repetition(key, settings.bsdf_sample, n);
@@ -110,9 +110,8 @@ NORRSKEN_INLINE void sample_next_ray(const Scene& scene, const ShadeSettings& se
 
 /// `Scene`: SceneView or PlainScene.
 template <class Model, class Scene>
-inline void shade_surface_of(const Scene& scene, const ShadeSettings& settings, const Queue<stored::Hit>& hits,
-                             std::uint32_t begin, std::uint32_t end, const Slots& slots,
-                             Queue<stored::ShadowRay>& shadow_rays, Queue<stored::Ray>& next_rays) {
+inline void shade_surface_of(const Scene& scene, const ShadeSettings& settings, const Hits& hits, std::uint32_t begin,
+                             std::uint32_t end, const Slots& slots, ShadowRays& shadow_rays, Rays& next_rays) {
   const Sampler sampler{scene.sampler.kind};
   const bool light_sampling = !Model::kDelta && scene.light_count > 0;
   const bool go_on = settings.next_rays && (Model::kDelta || scene.integrator.diffuse_bounces);
@@ -135,9 +134,8 @@ inline void shade_surface_of(const Scene& scene, const ShadeSettings& settings, 
 
 /// Hits [begin, end) of the queue; begin is a multiple of kLanes. `shadow_rays` has room for all of them.
 template <class Model>
-inline void shade_surface(const SceneView& scene, const ShadeSettings& settings, const Queue<stored::Hit>& hits,
-                          std::uint32_t begin, std::uint32_t end, const Slots& slots,
-                          Queue<stored::ShadowRay>& shadow_rays, Queue<stored::Ray>& next_rays) {
+inline void shade_surface(const SceneView& scene, const ShadeSettings& settings, const Hits& hits, std::uint32_t begin,
+                          std::uint32_t end, const Slots& slots, ShadowRays& shadow_rays, Rays& next_rays) {
   if (PlainScene::is_plain(scene)) {
     shade_surface_of<Model>(PlainScene(scene), settings, hits, begin, end, slots, shadow_rays, next_rays);
   } else {

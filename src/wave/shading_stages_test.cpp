@@ -149,23 +149,48 @@ TEST(ShadeSurface, ADiffuseHitsNextRayTakesItsReflectance) {
 TEST(ShadeSurface, RouletteKeepsTheMeanThroughput) {
   const auto scene = scene_of(facing_square(1, diffuse("0.8, 0.4, 0.2")) + far_light());
   ASSERT_TRUE(scene);
-  const KernelProbe& probe = probe_of(**usable_kernels());
   constexpr std::uint32_t kCount = 4096;
-  StageMemory m(kCount);
-  for (std::uint32_t s = 0; s < kCount; ++s) m.push(m.memory.rays, slanting_ray(s));
-  find_hits(probe, scene->view, m);
-  probe.shade_surface(scene->view, BsdfKind::diffuse, 1, true, m.memory.found.hits[kDiffuse], m.memory.slots,
-                      m.memory.shadow_rays, m.memory.next_rays);
-  ASSERT_LT(m.memory.next_rays.count, kCount);
   statistics::Mean green;
-  for (std::uint32_t i = 0; i < m.memory.next_rays.count; ++i) {
-    const stored::Ray ray = m.memory.next_rays[i];
-    expect_near(ray.throughput, {1, 0.25, 0.0625}, "survivor");
-    green.add(double{ray.throughput[1]});
-  }
-  for (std::uint32_t i = m.memory.next_rays.count; i < kCount; ++i) green.add(0);
+  for_every_isa([&](const KernelProbe& probe, const std::string& isa) {
+    StageMemory m(kCount);
+    for (std::uint32_t s = 0; s < kCount; ++s) m.push(m.memory.rays, slanting_ray(s));
+    find_hits(probe, scene->view, m);
+    probe.shade_surface(scene->view, BsdfKind::diffuse, 1, true, m.memory.found.hits[kDiffuse], m.memory.slots,
+                        m.memory.shadow_rays, m.memory.next_rays);
+    ASSERT_LT(m.memory.next_rays.count, kCount) << isa;
+    green = {};
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      const bool survives = i < m.memory.next_rays.count;
+      if (survives) expect_near(m.memory.next_rays[i].throughput, {1, 0.25, 0.0625}, isa);
+      green.add(survives ? double{m.memory.next_rays[i].throughput[1]} : 0.0);
+    }
+  });
+  // The same numbers in every instruction set: one of them is judged.
   statistics::StatisticalTest test;
   EXPECT_TRUE(test.agree(green.estimate(), 0.2, "mean throughput", 1e-5));
+}
+
+TEST(ShadeSurface, OneOfTwoLightsStandsForBoth) {
+  const auto scene =
+      scene_of(facing_square(1, diffuse("0.8, 0.4, 0.2")) + point_light(R"(x="0.5" y="3.25" z="-3")", "7") +
+               point_light(R"(x="0.5" y="-2.75" z="-3")", "7"));
+  ASSERT_TRUE(scene);
+  for_every_isa([&](const KernelProbe& probe, const std::string& isa) {
+    StageMemory m(64);
+    for (std::uint32_t s = 0; s < 64; ++s) m.push(m.memory.rays, slanting_ray(s));
+    find_hits(probe, scene->view, m);
+    probe.shade_surface(scene->view, BsdfKind::diffuse, 1, false, m.memory.found.hits[kDiffuse], m.memory.slots,
+                        m.memory.shadow_rays, m.memory.next_rays);
+    ASSERT_EQ(m.memory.shadow_rays.count, 64u) << isa;
+    std::uint32_t above = 0;
+    for (std::uint32_t i = 0; i < 64; ++i) {
+      const stored::ShadowRay ray = m.memory.shadow_rays[i];
+      above += ray.direction[1] > 0 ? 1 : 0;
+      // Each is 5 away, under the same angle, and chosen every other time.
+      expect_near(ray.contribution, times({0.8, 0.2, 0.05}, 2 / kPi * 0.8 * 7 / 25), isa);
+    }
+    EXPECT_TRUE(above > 0 && above < 64) << isa << ": both are chosen";
+  });
 }
 
 TEST(ShadeSurface, AMirrorSendsOneRayAndAsksNoLight) {

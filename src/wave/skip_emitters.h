@@ -8,7 +8,7 @@ namespace norrsken::NORRSKEN_ISA {
 /// Emitters behind each other that are looked through: far more than any scene has, so that no ray goes on forever.
 inline constexpr int kMostSkipped = 256;
 
-inline void skip_emitters(const SceneView& scene, Queue<stored::Ray>& rays) {
+inline void skip_emitters(const SceneView& scene, Rays& rays) {
   for (std::uint32_t i = 0; i < rays.count; i += kLanes) {
     Mask active = first_lanes(rays.count - i);
     Hit hit;

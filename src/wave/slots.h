@@ -7,8 +7,6 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-using Slots = Queue<stored::Slot>;
-
 NORRSKEN_INLINE SampleKey load_sample_key(const Slots& slots, UInt slot, Mask active) {
   return {gather_uint(slots.field(&stored::Slot::key), slot, active),
           gather_uint(slots.field(&stored::Slot::index), slot, active)};
