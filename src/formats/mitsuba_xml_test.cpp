@@ -375,7 +375,6 @@ TEST(HostileXml, EveryPrefixOfASceneIsReadOrRefused) {
   }
 }
 
-/// A `$spp` that follows the command line costs no second reading, of the file or of what it includes.
 TEST(MitsubaXml, FilesAreReadOnceWithPreferredParametersToo) {
   class CountedFiles : public MemoryFiles {
    public:
