@@ -16,8 +16,12 @@ fi
 [[ $# -gt 0 ]] || { echo "there is no fuzz target in $programs" >&2; exit 1; }
 
 mkdir -p out/fuzz build/fuzz/learned
-# Every plugin's and parameter's name, from the table that a test holds to the lists.
-grep -oh '"[A-Za-z_][A-Za-z0-9_]*"' tests/end_to_end/plugin_parameters.h fuzz/words.dict | sort -u > build/fuzz/xml.dict
+# Every plugin's and parameter's name, from the page that a test holds to them.
+{
+  sed -nE 's/^### (\w+)$/"\1"/p' docs/scenes.md
+  grep -oE '`[A-Za-z_][A-Za-z0-9_]*`' docs/scenes.md | tr '`' '"'
+  grep -o '"[A-Za-z_][A-Za-z0-9_]*"' fuzz/words.dict
+} | sort -u > build/fuzz/xml.dict
 
 fuzz_one() {
   local -r name=$1 log=out/fuzz/$1.log

@@ -177,8 +177,11 @@ def row_text(parameter):
         words = [w + " (default)" if w == parameter["default"] else w for w in parameter["choices"]]
         text = ", ".join(words[:-1]) + " or " + words[-1]
     else:
-        kind = parameter["type"] + (" or texture" if parameter["texture"] else "")
-        text = ", ".join(filter(None, [kind, parameter["unit"], range_of(parameter)]))
+        kind = parameter["type"]
+        if parameter["texture"] and kind != "texture":
+            kind += " or texture"
+        clamped = "else clamped with a warning" if parameter["clamped"] and range_of(parameter) else ""
+        text = ", ".join(filter(None, [kind, parameter["unit"], range_of(parameter), clamped]))
         default = default_of(parameter)
         text += f" (default {default})" if default else ""
     if parameter["required"]:

@@ -20,6 +20,7 @@ struct PluginParameter {
   /// Of numbers, and of each component of a colour; empty: no bound but what can be calculated with.
   std::optional<double> min = {}, max = {};
   bool min_belongs = true, max_belongs = true;  ///< whether the bounds themselves are in range
+  bool is_clamped = false;                      ///< what is out of range is brought into it, with a warning
   std::string unit = {};                        ///< "degrees", "pixels", "scene units"; empty: none
   std::string in_place_of = {};                 ///< the parameters that it stands for, if it is given
   std::string text = {};                        ///< what it means, in a line for people; may be empty

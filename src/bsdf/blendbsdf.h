@@ -1,5 +1,4 @@
 // Model       A mixture of two BSDFs: the second with the probability `weight`, the first otherwise.
-// Parameters  weight (number or texture, 0 to 1)
 // Measure     that of the BSDF chosen
 // Source      none needed
 // Departures  none in what is expected; the path goes on by one side, as in Mitsuba, and light sampling sees both as two

@@ -1,6 +1,4 @@
 // Model       The BSDF inside, with the shading normal of the surface moved along its normals by a texture.
-// Parameters  texture (a bitmap), scale (number, default 1), flip_invalid_normals and use_shadowing_function (booleans,
-//             default true; see wave/perturbed_frame.h)
 // Measure     that of the BSDF inside
 // Source      Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978: the derivatives of the moved surface without the
 //             term in the change of the normal

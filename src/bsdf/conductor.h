@@ -1,7 +1,4 @@
 // Model       Smooth conductor: a mirror of metal.
-// Parameters  material (name, default "none": reflects everything); or eta, k (linear sRGB or texture, from 0, default
-//             0 and 1): complex index of refraction over that of the surroundings;
-//             specular_reflectance (linear sRGB or texture, 0 to 1, default 1): factor on what is reflected
 // Measure     delta
 // Source      Born and Wolf, "Principles of Optics", section 14.2
 // Departures  none

@@ -1,7 +1,4 @@
 // Model       Smooth dielectric: an interface that reflects and refracts, as glass and water do.
-// Parameters  int_ior, ext_ior (number greater than 0, or a material's name; defaults "bk7" and "air"): indices of
-//             refraction behind and before the surface;
-//             specular_reflectance, specular_transmittance (linear sRGB or texture, 0 to 1, default 1)
 // Measure     delta; either part is chosen with the probability of its share
 // Source      Born and Wolf, "Principles of Optics", section 1.5.2; radiance grows by eta^2 as it enters: Veach,
 //             "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 5.2

@@ -1,5 +1,4 @@
 // Model       Lambertian reflection: the same radiance in every direction of the upper hemisphere.
-// Parameters  reflectance (linear sRGB, 0 to 1, default 0.5)
 // Measure     pdf_sa, cosine-weighted
 // Source      Lambert, "Photometria", 1760
 // Departures  none

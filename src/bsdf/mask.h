@@ -1,5 +1,4 @@
 // Model       A surface with holes: the BSDF inside with the probability `opacity`, nothing otherwise.
-// Parameters  opacity (number or texture, 0 to 1, default 0.5)
 // Measure     that of the BSDF inside, or delta
 // Source      none needed
 // Departures  none in what is expected; the path goes on by one side, as in Mitsuba, and light sampling sees both as two

@@ -1,7 +1,4 @@
 // Model       The BSDF inside, with shading normals from a texture.
-// Parameters  normalmap (texture or value: red, green, blue are x, y, z of the normal in the shading frame, -1 to 1 mapped
-//             to 0 to 1), flip_invalid_normals and use_shadowing_function (booleans, default true; see
-//             wave/perturbed_frame.h)
 // Measure     that of the BSDF inside
 // Source      Mitsuba 3's documentation of its plugin
 // Departures  none

@@ -1,5 +1,4 @@
 // Model       No surface at all: light passes straight through.
-// Parameters  none
 // Measure     delta
 // Source      none needed
 // Departures  see null.cpp

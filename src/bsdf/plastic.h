@@ -1,8 +1,4 @@
 // Model       Smooth plastic: a mirror-like dielectric coat over a diffuse base.
-// Parameters  diffuse_reflectance (linear sRGB or texture, 0 to 1, default 0.5), specular_reflectance (the same, default 1);
-//             int_ior, ext_ior (number greater than 0, or a material's name; defaults "polypropylene" and "air"): indices
-//             of refraction below the surface and above; nonlinear (boolean, default false): light that the coat sends
-//             back is coloured by the base once more each time
 // Measure     delta for the coat; pdf_sa, cosine-weighted, for the base; chosen by Fresnel's factor and the reflectances
 // Source      Fresnel's equations: fresnel.h; the base: coat.h
 // Departures  none from Mitsuba 3, whose fit of the coat's reflectance from inside is taken (fresnel_host.h): within 0.12 %

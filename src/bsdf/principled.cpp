@@ -1,6 +1,5 @@
 // principled: host side.
 //
-// What is out of these ranges is clamped, with a warning.
 // Side: the front; the back too, with the inverse index, where spec_trans lets light through.
 #include "bsdf/principled.h"
 

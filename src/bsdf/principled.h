@@ -1,9 +1,4 @@
 // Model       Disney's artist-friendly material: metal, plastic and glass in one, with sheen and a clear coat.
-// Parameters  base_color (linear sRGB or texture, 0 to 1, default 0.5); roughness (number or texture, 0 to 1, default 0.5);
-//             anisotropic, metallic, spec_trans, spec_tint, sheen, sheen_tint, flatness, clearcoat, clearcoat_gloss
-//             (numbers or textures, 0 to 1, default 0); eta (number greater than 0) or else specular (0 to 1, default 0.5);
-//             diffuse_reflectance_sampling_rate, main_specular_sampling_rate, clearcoat_sampling_rate (numbers from 0,
-//             default 1)
 // Measure     pdf_sa: cosine-weighted, from the clear coat's normals, and from visible normals with each facet's share of
 //             reflected light
 // Source      Burley 2012 and 2015, see principled_lobes.h; microfacets: Walter et al. 2007, equations 20 and 21

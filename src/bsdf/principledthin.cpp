@@ -1,6 +1,5 @@
 // principledthin: host side.
 //
-// What is out of these ranges is clamped, with a warning.
 // Side: both, alike.
 #include "bsdf/principledthin.h"
 

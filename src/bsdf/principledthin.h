@@ -1,10 +1,4 @@
 // Model       Disney's material for thin sheets, such as leaves and paper: light passes without being bent, both sides alike.
-// Parameters  base_color (linear sRGB or texture, 0 to 1, default 0.5); roughness (number or texture, 0 to 1, default 0.5);
-//             anisotropic, spec_trans, spec_tint, sheen, sheen_tint, flatness (numbers or textures, 0 to 1, default 0);
-//             diff_trans (number or texture, 0 to 2, default 0): share of the diffuse light that passes, 2 is all of it;
-//             eta (number or texture, greater than 0, default 1.5); diffuse_reflectance_sampling_rate,
-//             specular_reflectance_sampling_rate, specular_transmittance_sampling_rate,
-//             diffuse_transmittance_sampling_rate (numbers from 0, default 1)
 // Measure     pdf_sa: cosine-weighted on either side, and from visible normals on either side
 // Source      Burley 2012 and 2015 (roughness behind the sheet: figure 15), see principled_lobes.h
 // Departures  none from Mitsuba 3: sheen may give back more than arrives, and so may a white base at slanting angles, by up

@@ -1,8 +1,4 @@
 // Model       Rough conductor: tiny mirrors of metal, their normals distributed as Beckmann or GGX say.
-// Parameters  material, eta, k, specular_reflectance: as conductor has them;
-//             distribution ("beckmann" or "ggx", default "beckmann"); alpha (float or texture, at least 0, default
-//             0.1), root mean square slope of the facets, or alpha_u and alpha_v along the texture coordinates;
-//             sample_visible (accepted; visible normals are sampled either way)
 // Measure     pdf_sa, from the normals that are visible
 // Source      Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, equation 20; see
 //             microfacet.h

@@ -1,9 +1,4 @@
 // Model       Rough dielectric: tiny interfaces that reflect and refract, as ground glass does.
-// Parameters  int_ior, ext_ior, specular_reflectance, specular_transmittance: as dielectric has them, but the indices
-//             must differ;
-//             distribution ("beckmann" or "ggx", default "beckmann"); alpha (float or texture, at least 0, default
-//             0.1), root mean square slope of the facets, or alpha_u and alpha_v along the texture coordinates;
-//             sample_visible (accepted; visible normals are sampled either way)
 // Measure     pdf_sa, from the normals that are visible and each facet's share of reflected light
 // Source      Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, equations 20 and 21; see
 //             microfacet.h

@@ -1,7 +1,4 @@
 // Model       Rough plastic: a dielectric coat of tiny mirrors over a diffuse base.
-// Parameters  diffuse_reflectance, specular_reflectance, int_ior, ext_ior, nonlinear: as plastic has them, but the indices
-//             must differ; distribution ("beckmann" or "ggx", default "beckmann"); alpha (number, at least 0, default
-//             0.1), root mean square slope of the facets; sample_visible (accepted; visible normals are sampled)
 // Measure     pdf_sa, from the normals that are visible and cosine-weighted for the base; chosen by how much the coat
 //             lets through and by the reflectances
 // Source      Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, equation 20; see

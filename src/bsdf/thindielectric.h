@@ -1,8 +1,5 @@
 // Model       Thin sheet of a dielectric, such as a window pane: light goes straight on or is reflected, after any
 //             number of reflections inside.
-// Parameters  int_ior, ext_ior (number greater than 0, or a material's name; defaults "bk7" and "air"): indices of
-//             refraction of the sheet and around it;
-//             specular_reflectance, specular_transmittance (linear sRGB or texture, 0 to 1, default 1)
 // Measure     delta; either part is chosen with the probability of its share
 // Source      Stokes, "On the intensity of the light reflected from or transmitted through a pile of plates", 1862: of
 //             a plate whose faces reflect r, R = r + (1 - r)^2 r / (1 - r^2) = 2 r / (1 + r)

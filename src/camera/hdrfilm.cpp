@@ -17,17 +17,34 @@ constexpr IntegerParameter kHeight{.name = "height", .fallback = 576, .min = 1, 
 struct Crop {
   IntegerParameter offset, size;
 };
-constexpr std::string_view kCropText =
-    "the rectangle of the film that is rendered, all of it if not given; it has at most 2^28 pixels and no more than "
-    "there "
-    "is memory for: 263 bytes each, its image included, 167 with independent points; 192 more with paths from the "
-    "lights";
 constexpr Crop kCropX{
-    {.name = "crop_offset_x", .fallback = 0, .min = 0, .max = 767, .text = kCropText, .unit = "pixels"},
-    {.name = "crop_width", .fallback = 768, .min = 1, .max = 768, .text = kCropText, .unit = "pixels"}};
-constexpr Crop kCropY{
-    {.name = "crop_offset_y", .fallback = 0, .min = 0, .max = 575, .text = kCropText, .unit = "pixels"},
-    {.name = "crop_height", .fallback = 576, .min = 1, .max = 576, .text = kCropText, .unit = "pixels"}};
+    {.name = "crop_offset_x",
+     .fallback = 0,
+     .min = 0,
+     .max = 767,
+     .text = "the left edge of the rectangle of the film that is rendered, all of it if nothing is said. The rectangle "
+             "has at "
+             "most 2^28 pixels and no more than there is memory for: 263 bytes each, its image included, 167 with "
+             "independent points; 192 more with paths from the lights",
+     .unit = "pixels"},
+    {.name = "crop_width",
+     .fallback = 768,
+     .min = 1,
+     .max = 768,
+     .text = "the rectangle's, up to the film's right edge",
+     .unit = "pixels"}};
+constexpr Crop kCropY{{.name = "crop_offset_y",
+                       .fallback = 0,
+                       .min = 0,
+                       .max = 575,
+                       .text = "the rectangle's upper edge",
+                       .unit = "pixels"},
+                      {.name = "crop_height",
+                       .fallback = 576,
+                       .min = 1,
+                       .max = 576,
+                       .text = "the rectangle's, down to the film's lower edge",
+                       .unit = "pixels"}};
 constexpr BooleanParameter kSampleBorder{.name = "sample_border",
                                          .text =
                                              "filters of pixels at the border of that rectangle reach beyond it, as "

@@ -149,17 +149,18 @@ TEST(Hdrfilm, TakesTheFormatsThatAreWritten) {
   EXPECT_THAT(of_words.messages(),
               ElementsAre("note: 'component_format' is float32 here, for uint32 holds no radiance"));
   EXPECT_FALSE(of_words.tables().film.half_precision);
-  EXPECT_THAT(compile_film(kBox + text("component_format", "float64")).messages(),
-              ElementsAre("error: component_format 'float64' is not supported [float32, float16, uint32]"));
+  EXPECT_THAT(
+      compile_film(kBox + text("component_format", "float64")).messages(),
+      ElementsAre("error: 'component_format' is 'float64', did you mean 'float32'? [float32, float16, uint32]"));
   EXPECT_THAT(compile_film(kBox + text("pixel_format", "bgr")).messages(),
-              ElementsAre("error: pixel_format 'bgr' is not supported [rgb, rgba, xyz, xyza, luminance, "
+              ElementsAre("error: 'pixel_format' is 'bgr' [rgb, rgba, xyz, xyza, luminance, "
                           "luminance_alpha]"));
   for (const char* format : {"pfm", "RGBE"}) {
     EXPECT_THAT(compile_film(kBox + text("file_format", format)).messages(),
                 ElementsAre("note: 'file_format' has no effect here (instead: -o FILE.exr, FILE.png or FILE.jpg)"));
   }
   EXPECT_THAT(compile_film(kBox + text("file_format", "png")).messages(),
-              ElementsAre("error: file_format 'png' is not supported [openexr, exr, rgbe, pfm]"));
+              ElementsAre("error: 'file_format' is 'png' [openexr, exr, rgbe, pfm]"));
 }
 
 TEST(Hdrfilm, RefusesOtherFilmsAndParameters) {

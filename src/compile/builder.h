@@ -1,4 +1,5 @@
-// What plugins fill the scene's tables through: services that they share, and the common part of each kind.
+// From the description to the tables: the common part of each kind, and what the families' tools (plugin_tools.h) are
+// views of.
 #pragma once
 
 #include <algorithm>

@@ -10,11 +10,7 @@ namespace norrsken {
 /// Bounds on what a scene may ask for.
 inline constexpr int kMaxFilmSide = 65536;
 
-/// Sensors describe themselves.
-class Sensors : public PluginTools {
- public:
-  using PluginTools::PluginTools;
-};
+using Sensors = PluginTools;  ///< which describe themselves and need nothing else
 
 class Films : public PluginTools {
  public:

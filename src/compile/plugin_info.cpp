@@ -1,4 +1,4 @@
-// plugins() of include/norrsken/plugins.h: every plugin is asked what it asks for.
+// plugins() of include/norrsken/plugins.h: every plugin is asked for what it declares.
 #include "norrsken/plugins.h"
 
 #include <algorithm>

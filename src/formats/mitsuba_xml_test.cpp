@@ -6,8 +6,10 @@
 
 #include <ctime>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 
 #include "formats/reader_testing.h"
+#include "scene/memory_files.h"
 
 namespace norrsken {
 namespace {
@@ -371,6 +373,27 @@ TEST(HostileXml, EveryPrefixOfASceneIsReadOrRefused) {
     EXPECT_FALSE(scene.has_value()) << length;
     EXPECT_TRUE(diagnostics.has_errors()) << length;
   }
+}
+
+TEST(MitsubaXml, FilesAreReadOnceWithPreferredParametersToo) {
+  class CountedFiles : public MemoryFiles {
+   public:
+    using MemoryFiles::MemoryFiles;
+    std::optional<std::string> read(const std::string& path, std::string& error) const override {
+      ++reads[path];
+      return MemoryFiles::read(path, error);
+    }
+    mutable std::map<std::string, int> reads;
+  };
+  const CountedFiles files(
+      {{"room.xml",
+        R"(<scene version="3.0.0"><default name="spp" value="4"/><include filename="sampler.xml"/></scene>)"},
+       {"sampler.xml", R"(<scene version="3.0.0"><integer name="count" value="$spp"/></scene>)"}});
+  Diagnostics diagnostics;
+  const auto description = read_mitsuba_xml("room.xml", files, {}, diagnostics, {{"spp", "16"}});
+  ASSERT_TRUE(description.has_value()) << to_text(diagnostics);
+  EXPECT_EQ(value_of<std::int64_t>(*description, "count"), 16);
+  EXPECT_EQ(files.reads, (std::map<std::string, int>{{"room.xml", 1}, {"sampler.xml", 1}}));
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // Model       A shape with a formula of its own that emits from its front, the same in all directions; the radiance may
 //             be a texture.
-// Parameters  radiance (linear sRGB, W / (m^2 sr))
 // Measure     uniform over the area, told as pdf_sa
 // Source      Shirley, Wang, Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", 1996
 // Departures  shapes without a way of sampling their area (see src/shape/shape.h) are lights that only rays find

@@ -1,5 +1,4 @@
 // Model       The same radiance from everywhere around the scene.
-// Parameters  radiance (linear sRGB, W / (m^2 sr))
 // Measure     pdf_sa: uniform over the sphere of directions
 // Source      none needed
 // Departures  none

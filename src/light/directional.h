@@ -1,5 +1,4 @@
 // Model       Parallel light from infinitely far away, from one direction.
-// Parameters  direction (the light's), irradiance (linear sRGB, W / m^2, of a surface at right angles to it)
 // Measure     delta
 // Source      Mitsuba 3, emitter `directional`
 // Departures  none

@@ -1,6 +1,5 @@
 // Model       A surface that emits from its front along its normals only: parallel light from a plane, a fan from a
 //             curved or smooth one.
-// Parameters  radiance (linear sRGB or texture, W / m^2)
 // Measure     delta: nothing but the light's own rays finds it
 // Source      Mitsuba 3, emitter `directionalarea`
 // Departures  none

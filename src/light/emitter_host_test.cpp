@@ -77,9 +77,8 @@ TEST(SpotEmitter, RefusesWhatMakesNoSense) {
       ElementsAre("error: 'cutoff_angle' is 90 with a texture [an angle below 90]"));
   EXPECT_THAT(compile_kind("spot", "<texture name=\"texture\"" + kAttribute).messages(),
               ElementsAre("error: 'texture' is an attribute of meshes [a texture that needs no mesh, such as bitmap]"));
-  EXPECT_THAT(
-      compile_kind("spot", R"(<float name="texture" value="1"/>)").messages(),
-      ElementsAre("error: 'texture' is of one value [a texture that differs from place to place, such as bitmap]"));
+  EXPECT_THAT(compile_kind("spot", R"(<float name="texture" value="1"/>)").messages(),
+              ElementsAre("error: 'texture' is a float [a texture that differs from place to place, such as bitmap]"));
   EXPECT_THAT(compile_kind("spot", R"(<float name="cutoff" value="1"/>)").messages(),
               ElementsAre("error: unused parameter 'cutoff' of emitter 'spot' "
                           "[beam_width, cutoff_angle, intensity, sampling_weight, texture, to_world]"));

@@ -1,6 +1,5 @@
 // Model       The radiance around the scene from an image in latitude-longitude format, interpolated bilinearly: its
 //             columns go around the local y axis, its first row is at +y, its last at -y, its first column at -z, its middle at +z.
-// Parameters  image (linear sRGB, W / (m^2 sr)), scale, to_world, mis_compensation
 // Measure     pdf_sa: proportional to the interpolated product of luminance and the rows' sine of the polar angle; a
 //             patch between four texels by inverting its row's and its column's distribution, a point in it by inverting
 //             the two linear densities. With MIS compensation the luminance is what exceeds its mean

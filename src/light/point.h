@@ -1,5 +1,4 @@
 // Model       A point that sends the same radiant intensity in all directions.
-// Parameters  position (scene units), intensity (linear sRGB, W / sr)
 // Measure     delta
 // Source      inverse square law, Kepler 1604
 // Departures  none

@@ -1,8 +1,6 @@
 // Model       A perspective camera run backwards: a point that throws a picture into its field of view. The picture holds
 //             pi times the irradiance of the plane at distance 1, so that a white wall there has the picture's radiance,
 //             and a picture of one colour lights a wall evenly.
-// Parameters  position and direction (by to_world: local origin and +z, +y up and +x left), irradiance (linear sRGB, a
-//             texture), scale, fov
 // Measure     delta
 // Source      Mitsuba 3, emitter `projector`
 // Departures  none

@@ -1,5 +1,4 @@
 // Model       A sphere that emits from its outside, the same in all directions; the radiance may be a texture.
-// Parameters  radiance (linear sRGB, W / (m^2 sr))
 // Measure     pdf_sa: uniform over the cone of directions in which the sphere is seen; for a flipped sphere, which
 //             shines inwards, uniform over the area
 // Source      Wang 1992; Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., section 6.2.4

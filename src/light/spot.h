@@ -1,7 +1,5 @@
 // Model       A point that shines into a cone around a direction, perhaps through a picture: full intensity in a beam
 //             around the axis, from there falling linearly with the angle to nothing at the cone's edge.
-// Parameters  position and direction (by to_world: local origin and +z), intensity (linear sRGB, W / sr), cutoff and
-//             beam (radians off the axis), texture: it fills the square around the cone's base
 // Measure     delta
 // Source      Mitsuba 3, emitter `spot`
 // Departures  none

@@ -107,14 +107,14 @@ Value irregular(Parameters& p) {
   const std::vector<double> wavelengths = two_or_more(p, kWavelengths), values = two_or_more(p, kValues);
   if (wavelengths.empty() || values.empty()) return Property::Spectrum{};
   if (wavelengths.size() != values.size()) {
-    p.error("values", fmt::format("{} wavelengths and {} values", wavelengths.size(), values.size()),
+    p.error(kValues.name, fmt::format("{} wavelengths and {} values", wavelengths.size(), values.size()),
             "as many values as wavelengths");
     return Property::Spectrum{};
   }
   Property::Spectrum spectrum;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!(wavelengths[i] > (i == 0 ? 0 : wavelengths[i - 1]))) {
-      p.error("wavelengths", fmt::format("{} is not above the wavelength before it", wavelengths[i]),
+      p.error(kWavelengths.name, fmt::format("{} is not above the wavelength before it", wavelengths[i]),
               "wavelengths in nm, ascending");
       return Property::Spectrum{};
     }

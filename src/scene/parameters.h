@@ -20,10 +20,10 @@ namespace norrsken {
 class FileSystem;
 struct BaseParameter;
 
-/// A plugin reads the parameters that it declares (scene/parameter.h); what it asks for is what is accepted. Every
-/// complaint (wrong type, out of range, not finite, missing) goes to the diagnostics and the fallback is returned, so that
-/// reading goes on. `finish` complains about what was given but never asked for, and notes what the format takes but has no effect here
-/// (scene/base_parameters.h).
+/// A plugin reads the parameters that it declares (parameter.h); what it asks for is what is accepted. Every complaint
+/// (wrong type, out of range, not finite, missing) goes to the diagnostics and the fallback is returned, so that reading
+/// goes on. `finish` complains about what was given but never asked for, and notes what the format takes but has no effect
+/// here (base_parameters.h).
 class Parameters {
  public:
   Parameters(const Node& node, const Description& description, const FileSystem& files, Diagnostics& diagnostics);

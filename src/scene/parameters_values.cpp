@@ -114,6 +114,7 @@ std::optional<double> Parameters::value_of(const Property& property, std::string
 double Parameters::read(const NumberParameter& number) {
   ask(number, PluginParameter::Type::number, fmt::format("{}", number.fallback));
   note_range(number.name, number.range);
+  if (record_) recorded(number.name).is_clamped = number.beyond != Beyond::is_an_error;
   Property storage;
   const Property* property = number.takes_colors ? find_value<double, std::int64_t, Property::Rgb, Property::Spectrum>(
                                                        number.name, "float, rgb, spectrum", storage)

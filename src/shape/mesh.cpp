@@ -1,5 +1,6 @@
 // mesh: triangles that the scene itself holds, in strings of numbers or in arrays of the program that makes it.
 //
+// Programs may give a `mesh` in place of the four arrays, with attributes for textures of type `mesh_attribute`.
 // Departures: Mitsuba makes such meshes by Python alone.
 #include <fmt/core.h>
 

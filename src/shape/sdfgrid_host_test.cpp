@@ -61,9 +61,9 @@ TEST(SdfGridHost, KnowsBothNormals) {
   EXPECT_EQ(word(grid(R"(<string name="normals" value="smooth"/>)"), SdfGridTable::kSmooth), 1u);
   EXPECT_EQ(word(grid(R"(<string name="normals" value="analytic"/>)"), SdfGridTable::kSmooth), 0u);
   EXPECT_THAT(grid(R"(<string name="normals" value="flat"/>)").messages(),
-              ElementsAre("error: 'normals' is 'flat' [analytic, smooth]"));
+              ElementsAre("error: 'normals' is 'flat' [smooth, analytic]"));
   EXPECT_THAT(grid(R"(<integer name="normals" value="1"/>)").messages(),
-              ElementsAre("error: 'normals' is an integer [string: analytic, smooth]"));
+              ElementsAre("error: 'normals' is an integer [string: smooth, analytic]"));
 }
 
 TEST(SdfGridHost, IsPlaced) {

@@ -52,7 +52,8 @@ Texture compile_texture_bitmap(Parameters& p, Textures& textures) {
   const isa_host::ToUvSlots to_uv = to_uv_slots(p.read(kToUv));
   const auto image = textures.images().of(p, kFilename, raw);
   if (!image) return {};
-  const auto texture_of = [&textures, to_uv, wrap_u, wrap_v, nearest](const StoredImage& stored) {
+  // With tools of their own: `clamped` is called when those of this call are gone.
+  auto texture_of = [textures, to_uv, wrap_u, wrap_v, nearest](const StoredImage& stored) mutable {
     return Texture{textures.add(isa_host::Bitmap::Stored{.to_uv = to_uv,
                                                          .width = static_cast<float>(stored.width),
                                                          .height = static_cast<float>(stored.height),
@@ -70,7 +71,7 @@ Texture compile_texture_bitmap(Parameters& p, Textures& textures) {
   Texture texture = texture_of(*image);
   // Bytes are fractions, which every range has.
   if (image->stride == 0) return texture;
-  texture.clamped = [&textures, texture_of, image](double min, double max, const SourceLocation& place) {
+  texture.clamped = [textures, texture_of, image](double min, double max, const SourceLocation& place) mutable {
     const auto clamped = textures.images().clamped(*image, min, max, place);
     return clamped ? texture_of(*clamped) : Texture{};
   };

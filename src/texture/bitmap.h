@@ -1,6 +1,5 @@
 // Model       An image. Texel (column i, row j from the top) of w x h covers [i/w, (i+1)/w] x [j/h, (j+1)/h] of uv: uv
 //             (0, 0) is the image's upper left corner.
-// Parameters  filename, filter_type (bilinear or nearest), wrap_mode (repeat, mirror or clamp; also of u or v alone), raw, to_uv
 // Source      Mitsuba 3's documentation of its bitmap texture; bilinear interpolation between texel centres
 // Departures  8-bit texels are kept as such, where Mitsuba stores 16-bit floats
 #pragma once

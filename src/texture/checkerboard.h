@@ -1,5 +1,4 @@
 // Model       Two values in squares of half a unit of texture space.
-// Parameters  color0, color1 (linear sRGB or float, defaults 0.4 and 0.2), to_uv (transform, default identity)
 // Source      none needed
 // Departures  color0 and color1 are values, not textures in turn
 #pragma once

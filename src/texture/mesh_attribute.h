@@ -1,5 +1,4 @@
 // Model       Values that come with a mesh: interpolated between the corners of a triangle, or one for each triangle.
-// Parameters  name ("vertex_..." or "face_..."), scale (number, default 1)
 // Source      linear interpolation in barycentric coordinates
 // Departures  none
 #pragma once
