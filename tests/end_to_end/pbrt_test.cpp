@@ -125,6 +125,14 @@ TEST(Pbrt, ALightWithoutAColourHasLuminanceOne) {
         << spectrum;
 }
 
+TEST(Pbrt, LightsAroundTheSceneAddUp) {
+  const std::string two = "WorldBegin\nLightSource \"infinite\" \"rgb L\" [ 1 2 3 ]\nLightSource \"infinite\" ";
+  expect_near(render(view(1) + two + "\"rgb L\" [ 1 1 1 ]")[0], {2, 3, 4}, 1e-4);
+  expect_near(render(view(1) + two + "\"string filename\" \"half.pfm\" \"float scale\" 2",
+                     {{"half.pfm", pfm(1, 1, {{.5, .5, 1}})}})[0],
+              {2, 3, 5}, 1e-4);
+}
+
 TEST(Pbrt, ExposureIsTimeTimesSensitivity) {
   const std::string sky = "WorldBegin\nLightSource \"infinite\" \"rgb L\" [ 1 1 1 ]";
   EXPECT_NEAR(render(view(1, "\"float iso\" 400") + sky)[0][0], 4, 1e-4);
@@ -254,6 +262,16 @@ TEST(Pbrt, PowerIsThatOfEachPrimitive) {
   EXPECT_NEAR(seen("-1 -1 1 1 -1 1 1 1 1 -1 1 1", "0 1 2 0 2 3"), 10 / (kPi * 2), 1e-3);
   // Of one that is half of it and one of twice its area behind the camera.
   EXPECT_NEAR(seen("-1 -1 1 1 -1 1 1 1 1  0 0 -9 2 0 -9 0 4 -9", "0 1 2 3 4 5"), 10 / (kPi * 2) / 2, 0.03);
+}
+
+TEST(Pbrt, PowerIsThatOfEachPatch) {
+  // Two patches of area 4 and 1, the small one behind the camera.
+  const auto pixels = render(view(1) + R"(WorldBegin
+    AreaLightSource "diffuse" "float power" 10
+    ReverseOrientation
+    Shape "bilinearmesh" "point3 P" [ -1 -1 1  1 -1 1  -1 1 1  1 1 1  0 0 -9  1 0 -9  0 1 -9  1 1 -9 ]
+      "integer indices" [ 0 1 2 3 4 5 6 7 ])");
+  EXPECT_NEAR(pixels[0][1], 10 / (kPi * 4), 1e-4);
 }
 
 TEST(Pbrt, InstancesStandWhereTheyArePut) {

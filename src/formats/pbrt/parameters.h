@@ -18,7 +18,7 @@ namespace norrsken::pbrt {
 struct Parameter {
   std::string type, name;
   Array<double> numbers;  ///< all components, one after the other; of a bool 0 or 1
-  std::vector<std::string> strings;
+  Array<std::string> strings;
   Place place;         ///< of "type name"
   Place value;         ///< of the first value
   bool given = false;  ///< by an Attribute directive rather than for the object itself

@@ -114,6 +114,7 @@ void SceneMaker::finish_instances() {
 
 std::shared_ptr<const Node> SceneMaker::finish(Settings& settings) {
   add_settings(context_, settings, scene_);
+  add_environment(context_, environment_, scene_);
   for (Shape& shape : shapes_) finish_shape(shape, scene_);
   finish_instances();
   materials_.finish();

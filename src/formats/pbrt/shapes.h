@@ -24,7 +24,7 @@ struct Geometry {
   Node node;
   std::shared_ptr<const Mesh> mesh = nullptr;  ///< of shapes that are one: in the world
   double area = 0;                             ///< as pbrt calculates it
-  bool power_is_per_triangle = false;
+  std::size_t triangles_per_primitive = 0;     ///< of a mesh of several lights; 0: the shape is one
 };
 
 /// Shape "type" ... Empty after a complaint, or if there is nothing to see. `p` is asked for all that it may have but
