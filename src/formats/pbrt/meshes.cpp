@@ -127,7 +127,7 @@ std::optional<Geometry> make_triangle_mesh(Context& context, Parameters& p, cons
   const std::size_t triangles = arrays->indices.size() / 3;
   MeshMaker maker(context, placement.to_world, placement.reverse);
   // Without any, pbrt gives the corners of each triangle these.
-  const bool apart = !arrays->uv && placement.may_have_texture && triangles <= kMostApart;
+  const bool apart = !arrays->uv && placement.depends_on_uv && triangles <= kMostApart;
   const auto add = [&](std::size_t i, const glm::dvec2* uv) {
     const glm::dvec3 normal = arrays->normals ? vector_at(*arrays->normals, i) : glm::dvec3(0);
     return maker.vertex(vector_at(*arrays->positions, i), arrays->normals ? &normal : nullptr, uv);

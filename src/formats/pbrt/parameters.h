@@ -51,8 +51,8 @@ class Parameters {
   /// The last given of several types.
   const Parameter* find(std::initializer_list<std::string_view> types, std::string_view name);
   bool has(std::string_view name) const;  ///< of any type; does not count as asking
-  /// Whether one of them is looked up by (u, v): a texture or an image.
-  bool mentions_texture() const;
+  /// Whether one of them goes by (u, v): a texture, an image, or what differs along u and v.
+  bool depends_on_uv() const;
 
   double number(std::string_view name, double fallback, double min = -kInfinity, double max = kInfinity);
   /// A number above 0.

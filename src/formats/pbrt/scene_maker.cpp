@@ -24,7 +24,7 @@ void SceneMaker::add_shape(const std::string& type, Parameters p, SharedParamete
   const Placement placement{
       .to_world = state.transforms.start,
       .reverse = state.reverse,
-      .may_have_texture = materials_.may_have_texture(state.material) || !alpha.empty() || (light && light->image),
+      .depends_on_uv = materials_.depends_on_uv(state.material) || !alpha.empty() || (light && light->image),
       .as_mesh = light && light->two_sided};
   if (const double determinant = glm::determinant(glm::dmat3(placement.to_world));
       !std::isfinite(determinant) || determinant == 0) {

@@ -13,9 +13,9 @@ namespace norrsken::pbrt {
 
 struct Placement {
   glm::dmat4 to_world{1};
-  bool reverse = false;          ///< ReverseOrientation
-  bool may_have_texture = true;  ///< of the material: then (u, v) has to be pbrt's
-  bool as_mesh = false;          ///< whatever it is
+  bool reverse = false;       ///< ReverseOrientation
+  bool depends_on_uv = true;  ///< the material, perhaps: then (u, v) has to be pbrt's
+  bool as_mesh = false;       ///< whatever it is
 
   bool is_mirrored() const { return glm::determinant(glm::dmat3(to_world)) < 0; }
 };

@@ -48,7 +48,9 @@ class Lookup {
     return finish(color);
   }
   glm::dvec3 finish(const glm::dvec3& color) const {
-    return glm::max(how_.invert ? 1.0 - how_.scale * color : how_.scale * color, glm::dvec3(0));
+    const glm::dvec3 value = how_.invert ? 1.0 - how_.scale * color : how_.scale * color;
+    // Numbers, such as heights, may be negative if nothing inverts them.
+    return how_.is_number && !how_.invert ? value : glm::max(value, glm::dvec3(0));
   }
 
   std::shared_ptr<const ImageFile> file_;
@@ -156,12 +158,12 @@ Pattern drawn_pattern(ImageFiles& images, const Parameter& filename, const Image
 }  // namespace
 
 Pattern image_pattern(Context& context, ImageFiles& images, const Parameter& filename, const ImageLookup& lookup,
-                      const TextureMapping& mapping, bool is_number) {
+                      const TextureMapping& mapping) {
   if (lookup.wrap == "octahedralsphere")
     context.tell(filename.place, "wrap 'octahedralsphere' of an image is not supported", "wrap 'clamp'");
   const bool is_png = has_ending(filename.strings[0], ".png");
   bool is_alpha = false;
-  if (is_number && lookup.filter == "bilinear") {
+  if (lookup.is_number && lookup.filter == "bilinear") {
     const std::shared_ptr<const ImageFile> file = images.read(filename);
     is_alpha = file && file->alpha && std::ranges::any_of(file->alpha->values, [](float a) { return a != 1; });
   }

@@ -173,14 +173,15 @@ Pattern Textures::read(const Key& key, TextureDefinition& definition, Slot slot)
 
 Pattern Textures::read_image(const Key& key, TextureDefinition& definition) {
   Parameters& p = definition.parameters;
-  const ImageLookup lookup = read_lookup(p);
+  ImageLookup lookup = read_lookup(p);
+  lookup.is_number = key.first == "float";
   const TextureMapping mapping = read_mapping(context_, p);
   const Parameter* filename = p.find("string", "filename");
   if (!filename || !p.has_values(*filename, 1)) {
     if (!filename) p.error(nullptr, "texture 'imagemap' has no file", R"("string filename" "image.png")");
     return Pattern::constant(glm::dvec3(0.5));
   }
-  return image_pattern(context_, images_, *filename, lookup, mapping, key.first == "float");
+  return image_pattern(context_, images_, *filename, lookup, mapping);
 }
 
 }  // namespace norrsken::pbrt
