@@ -42,7 +42,7 @@ std::string find_scene(const std::string& path_or_name, const FileSystem& files,
   diagnostics.error({},
                     fmt::format("there is no scene file or built-in scene {}{}", quoted(path_or_name, 200),
                                 did_you_mean(path_or_name, names)),
-                    "the path of a Mitsuba XML file, or one of " + join(names));
+                    "the path of a scene file, or one of " + join(names));
   return {};
 }
 

@@ -217,7 +217,7 @@ TEST(SceneLoad, NamesTheBuiltInScenesWhenThereIsNoSuchFile) {
   ASSERT_EQ(diagnostics.all().size(), 1u);
   EXPECT_EQ(to_text(diagnostics.all()[0]),
             "error: there is no scene file or built-in scene 'hexagon_rom', did you mean 'hexagon_room'?\n"
-            "accepted: the path of a Mitsuba XML file, or one of gallery_cameras, gallery_lights, gallery_materials, "
+            "accepted: the path of a scene file, or one of gallery_cameras, gallery_lights, gallery_materials, "
             "hexagon_room");
 }
 

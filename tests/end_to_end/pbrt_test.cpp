@@ -114,6 +114,35 @@ TEST(Pbrt, OnlyTheFrontShinesUnlessBothSidesDo) {
   EXPECT_NEAR(square(R"("rgb L" [ 2 3 4 ] "bool twosided" true)", "ReverseOrientation\n"), 3, 1e-5);
 }
 
+TEST(Pbrt, RoundShapesFaceOutUntilTheyAreReversedOrMirrored) {
+  const auto seen = [](const std::string& before, const std::string& shape) {
+    return render(view(1) + "WorldBegin\nAreaLightSource \"diffuse\"\n" + before + "\nTranslate 0 0 3\n" + shape, {},
+                  64)[0][1] > 0.01;
+  };
+  for (const char* shape :
+       {"Shape \"sphere\"", "Rotate 90 0 1 0 Shape \"cylinder\"",
+        "Rotate 90 0 1 0 Shape \"cylinder\" \"float phimax\" 359.99", "Rotate 180 0 1 0 Shape \"disk\"",
+        "Rotate 180 0 1 0 Shape \"disk\" \"float innerradius\" .1"}) {
+    EXPECT_TRUE(seen("", shape)) << shape;
+    EXPECT_FALSE(seen("ReverseOrientation", shape)) << shape;
+    EXPECT_FALSE(seen("Scale -1 1 1", shape)) << shape;
+    EXPECT_TRUE(seen("ReverseOrientation\nScale -1 1 1", shape)) << shape;
+  }
+}
+
+TEST(Pbrt, AlphaIsTheShareThatIsThere) {
+  const auto seen = [](const std::string& alpha) {
+    return render(
+        view(1) + "WorldBegin\nLightSource \"infinite\"\nMaterial \"diffuse\" \"rgb reflectance\" [ 0 0 0 ]\n" + alpha,
+        {}, 4096)[0][1];
+  };
+  const std::string patch = "Shape \"bilinearmesh\" \"point3 P\" [ -1 -1 1  1 -1 1  -1 1 1  1 1 1 ] ";
+  EXPECT_NEAR(seen(patch + "\"float alpha\" .25"), 0.75, 0.02);
+  EXPECT_NEAR(seen("Texture \"a\" \"float\" \"checkerboard\" \"float uscale\" 4 \"float vscale\" 4\n" + patch +
+                   "\"texture alpha\" \"a\""),
+              0.5, 0.02);
+}
+
 TEST(Pbrt, ALightWithoutAColourHasLuminanceOne) {
   EXPECT_NEAR(render(view(1) + "WorldBegin\nLightSource \"infinite\"")[0][0], 1, 1e-5);
   expect_near(render(view(1) + "WorldBegin\nLightSource \"infinite\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2")[0],
@@ -123,6 +152,14 @@ TEST(Pbrt, ALightWithoutAColourHasLuminanceOne) {
     EXPECT_NEAR(luminance(render(view(1) + "WorldBegin\nLightSource \"infinite\" \"float scale\" 5 " + spectrum)[0]), 5,
                 1e-3)
         << spectrum;
+}
+
+TEST(Pbrt, LightsAroundTheSceneAddUp) {
+  const std::string two = "WorldBegin\nLightSource \"infinite\" \"rgb L\" [ 1 2 3 ]\nLightSource \"infinite\" ";
+  expect_near(render(view(1) + two + "\"rgb L\" [ 1 1 1 ]")[0], {2, 3, 4}, 1e-4);
+  expect_near(render(view(1) + two + "\"string filename\" \"half.pfm\" \"float scale\" 2",
+                     {{"half.pfm", pfm(1, 1, {{.5, .5, 1}})}})[0],
+              {2, 3, 5}, 1e-4);
 }
 
 TEST(Pbrt, ExposureIsTimeTimesSensitivity) {
@@ -254,6 +291,16 @@ TEST(Pbrt, PowerIsThatOfEachPrimitive) {
   EXPECT_NEAR(seen("-1 -1 1 1 -1 1 1 1 1 -1 1 1", "0 1 2 0 2 3"), 10 / (kPi * 2), 1e-3);
   // Of one that is half of it and one of twice its area behind the camera.
   EXPECT_NEAR(seen("-1 -1 1 1 -1 1 1 1 1  0 0 -9 2 0 -9 0 4 -9", "0 1 2 3 4 5"), 10 / (kPi * 2) / 2, 0.03);
+}
+
+TEST(Pbrt, PowerIsThatOfEachPatch) {
+  // Two patches of area 4 and 1, the small one behind the camera.
+  const auto pixels = render(view(1) + R"(WorldBegin
+    AreaLightSource "diffuse" "float power" 10
+    ReverseOrientation
+    Shape "bilinearmesh" "point3 P" [ -1 -1 1  1 -1 1  -1 1 1  1 1 1  0 0 -9  1 0 -9  0 1 -9  1 1 -9 ]
+      "integer indices" [ 0 1 2 3 4 5 6 7 ])");
+  EXPECT_NEAR(pixels[0][1], 10 / (kPi * 4), 1e-4);
 }
 
 TEST(Pbrt, InstancesStandWhereTheyArePut) {

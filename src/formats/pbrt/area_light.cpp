@@ -28,14 +28,22 @@ std::shared_ptr<const Node> radiance_texture(Context& context, const AreaLight& 
   return std::make_shared<const Node>(std::move(node));
 }
 
-/// `mesh` with a radiance of its own for each triangle, so that all have the same power.
-std::shared_ptr<const Mesh> with_radiances(Context& context, const Mesh& mesh, const glm::dvec3& radiance_times_area) {
-  const std::size_t triangles = mesh.triangles.size() / 3;
+/// The areas of a mesh's primitives, of so many triangles each.
+std::vector<double> primitive_areas(const Mesh& mesh, std::size_t triangles_each) {
+  std::vector<double> areas(mesh.triangles.size() / 3 / triangles_each);
+  for (std::size_t i = 0; i < areas.size() * triangles_each; ++i) areas[i / triangles_each] += triangle_area(mesh, i);
+  return areas;
+}
+
+/// `mesh` with a radiance of its own for each primitive, so that all have the same power.
+std::shared_ptr<const Mesh> with_radiances(Context& context, const Mesh& mesh, const std::vector<double>& areas,
+                                           const glm::dvec3& radiance_times_area) {
+  const std::size_t triangles = mesh.triangles.size() / 3, each = triangles / areas.size();
   context.memory.grow(sizeof(float) * 3 * triangles);
   Mesh shining = mesh;
   Mesh::Attribute attribute{.name = kRadianceAttribute, .channels = 3};
   for (std::size_t i = 0; i < triangles; ++i) {
-    const double area = triangle_area(mesh, i);
+    const double area = areas[i / each];
     for (int c = 0; c < 3; ++c)
       attribute.values.push_back(area > 0 ? static_cast<float>(radiance_times_area[c] / area) : 0.0F);
   }
@@ -73,27 +81,24 @@ void add_area_light(Context& context, const AreaLight& light, Geometry& geometry
   Node emitter = make_node("emitter", "area", light.place);
   const double sides = (light.two_sided ? 2 : 1) * std::numbers::pi;
   const bool has_power = light.power > 0;
-  const std::size_t triangles =
-      has_power && geometry.power_is_per_triangle ? geometry.mesh->triangles.size() / 3 : std::size_t{1};
-  double least = Parameters::kInfinity, most = 0;
-  for (std::size_t i = 0; i < triangles && triangles > 1; ++i) {
-    const double area = triangle_area(*geometry.mesh, i);
-    least = std::min(least, area), most = std::max(most, area);
-  }
-  const bool alike = triangles == 1 || most - least <= kSameArea * most;
-  // The power is that of each triangle.
-  const double area = geometry.area / static_cast<double>(triangles);
+  std::vector<double> areas;
+  if (has_power && geometry.triangles_per_primitive > 0)
+    areas = primitive_areas(*geometry.mesh, geometry.triangles_per_primitive);
+  const auto [least, most] = std::ranges::minmax_element(areas);
+  const bool alike = areas.empty() || *most - *least <= kSameArea * *most;
+  // The power is that of each primitive.
+  const double area = geometry.area / static_cast<double>(std::max(areas.size(), std::size_t{1}));
   const double mean_luminance = light.image ? light.image_luminance : 1;
   const double per_area = light.scale * (has_power ? light.power / (sides * mean_luminance) : 1);
   const double scale = has_power ? per_area / area : per_area;
   if (light.image) {
     if (!alike)
-      context.tell(light.place, "'power' of an image on triangles of several sizes", "the same radiance on all");
+      context.tell(light.place, "'power' of an image on surfaces of several sizes", "the same radiance on all");
     add_child(emitter, radiance_texture(context, light, scale), "radiance", light.place);
   } else if (alike) {
     give(emitter, "radiance", to_rgb(scale * light.radiance), light.place);
   } else {
-    geometry.mesh = with_radiances(context, *geometry.mesh, per_area * light.radiance);
+    geometry.mesh = with_radiances(context, *geometry.mesh, areas, per_area * light.radiance);
     give(geometry.node, "mesh", geometry.mesh, light.place);
     Node texture = make_node("texture", "mesh_attribute", light.place);
     give(texture, "name", std::string(kRadianceAttribute), light.place);

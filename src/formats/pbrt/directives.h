@@ -98,7 +98,7 @@ class DirectiveReader {
   SceneMaker maker_;
   Settings settings_;
   GraphicsState state_;
-  std::vector<OpenBlock> blocks_;
+  Array<OpenBlock> blocks_;
   std::map<std::string, Transforms> coordinate_systems_;
   std::deque<Source> sources_;
   std::vector<std::string> open_files_;  ///< the one that is read and those that include it, outermost first

@@ -11,9 +11,9 @@ namespace norrsken::pbrt {
 std::shared_ptr<const ImageFile> ImageFiles::read(const Parameter& parameter) {
   const std::string path = context_.find_file(parameter);
   if (path.empty()) return nullptr;
-  const auto [known, is_new] = files_.try_emplace(normal_path(path));
-  if (!is_new) return known->second;
-  const auto refuse = [&](const std::string& reason) {
+  std::weak_ptr<const ImageFile>& known = files_[normal_path(path)];
+  if (auto file = known.lock()) return file;
+  const auto refuse = [&](const std::string& reason) -> std::shared_ptr<const ImageFile> {
     context_.diagnostics.error(parameter.value.location(), "cannot read the image " + quoted(path, 200) + ": " + reason,
                                "a PNG, JPEG, BMP, TGA, TIFF, PNM, PFM, EXR or HDR file");
     return nullptr;
@@ -37,7 +37,8 @@ std::shared_ptr<const ImageFile> ImageFiles::read(const Parameter& parameter) {
   for (std::size_t c = 0; c < 3; ++c)
     file->color[c] = &file->image.channels[colors.numbers[colors.numbers.size() == 3 ? c : 0]];
   file->alpha = file->image.find("A");
-  return known->second = std::move(file);
+  known = file;
+  return file;
 }
 
 }  // namespace norrsken::pbrt

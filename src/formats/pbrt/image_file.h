@@ -36,7 +36,7 @@ class ImageFiles {
 
  private:
   Context& context_;
-  std::map<std::string, std::shared_ptr<const ImageFile>> files_;
+  std::map<std::string, std::weak_ptr<const ImageFile>> files_;  ///< those that somebody still needs
 };
 
 }  // namespace norrsken::pbrt

@@ -27,9 +27,6 @@ double illuminance_of(const ImageFile& file) {
   return sum * 2 * kPi / (static_cast<double>(size) * size);
 }
 
-/// What is seen in a direction of the light's space.
-using LookUp = glm::dvec3 (*)(const ImageFile& file, const glm::dvec3& direction);
-
 /// The texel of an image in latitude and longitude with z up, which infinite lights of version 3 have.
 glm::dvec3 version3_texel(const ImageFile& file, const glm::dvec3& d) {
   const int width = file.image.width, height = file.image.height;
@@ -38,11 +35,20 @@ glm::dvec3 version3_texel(const ImageFile& file, const glm::dvec3& d) {
                     std::clamp(static_cast<int>(down * height), 0, height - 1));
 }
 
+/// The radiance from a direction of the world.
+glm::dvec3 radiance_from(const Environment& environment, const glm::dvec3& world) {
+  glm::dvec3 sum = environment.radiance;
+  for (const Environment::Map& map : environment.maps)
+    sum += map.scale * map.look_up(*map.file, glm::normalize(map.light_from_world * world));
+  return sum;
+}
+
 /// The image as the emitter envmap wants it, with +y up in the world.
-Image to_latitude_longitude(const ImageFile& file, LookUp look_up, const glm::dmat4& to_world) {
-  const glm::dmat3 light_from_world = glm::inverse(glm::dmat3(to_world));
+Image to_latitude_longitude(const Environment& environment) {
   Image image;
-  image.height = std::max(file.image.height, 3), image.width = 2 * image.height;
+  image.height = 3;
+  for (const Environment::Map& map : environment.maps) image.height = std::max(image.height, map.file->image.height);
+  image.width = 2 * image.height;
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, std::vector<float>(pixels)});
   const double last_row = image.height - 1;
@@ -55,8 +61,8 @@ Image to_latitude_longitude(const ImageFile& file, LookUp look_up, const glm::dm
         // The emitter's texels: rows from pole to pole, columns around from -z, half a column off.
         const double theta = std::clamp((y + inside.y - 0.5) / last_row, 0.0, 1.0) * kPi;
         const double phi = (x + inside.x) / image.width * 2 * kPi;
-        const glm::dvec3 world(std::sin(phi) * std::sin(theta), std::cos(theta), -std::cos(phi) * std::sin(theta));
-        sum += look_up(file, glm::normalize(light_from_world * world));
+        sum += radiance_from(environment,
+                             {std::sin(phi) * std::sin(theta), std::cos(theta), -std::cos(phi) * std::sin(theta)});
       }
       for (int c = 0; c < 3; ++c)
         image.channels[static_cast<std::size_t>(c)].values[pixel] = static_cast<float>(sum[c] / (kSamples * kSamples));
@@ -91,7 +97,7 @@ glm::dvec3 equal_area_texel(const ImageFile& file, const glm::dvec3& direction) 
 }
 
 void add_infinite_light(Context& context, ImageFiles& images, Parameters& p, const ColorSpace& space,
-                        const glm::dmat4& to_world, Node& scene) {
+                        const glm::dmat4& to_world, Environment& environment) {
   double scale = p.number("scale", 1, 0) * context.imaging_ratio;
   const glm::dvec3 radiance = read_emission(context, p, "L", space);
   const double illuminance = p.number("illuminance", -1);
@@ -104,9 +110,8 @@ void add_infinite_light(Context& context, ImageFiles& images, Parameters& p, con
                  "the light from all directions");
   if (!filename) {
     if (illuminance > 0) scale *= illuminance / kPi;
-    Node node = make_node("emitter", "constant", p.place());
-    give(node, "radiance", to_rgb(scale * radiance), p.place());
-    scene.add(std::move(node));
+    environment.radiance += scale * radiance;
+    environment.place = p.place();
     return;
   }
   if (p.has("L") && !version3) return p.error(filename, "light 'infinite' has 'filename' beside 'L'", "either");
@@ -118,13 +123,24 @@ void add_infinite_light(Context& context, ImageFiles& images, Parameters& p, con
         filename, fmt::format("the image of light 'infinite' has {} x {} pixels", width, height),
         "a square image of equal areas, as pbrt's 'imgtool makeequiarea' makes it of one in latitude and longitude");
   if (illuminance > 0 && !version3) scale *= illuminance / illuminance_of(*file);
-  Node node = make_node("emitter", "envmap", p.place());
-  Image image = to_latitude_longitude(*file, version3 ? version3_texel : equal_area_texel, to_world);
-  context.memory.grow(sizeof(float) * 3 * image.channels[0].values.size());
-  give(node, "image", std::make_shared<const Image>(std::move(image)), filename->place);
   // Version 3 multiplies its image with "L".
-  if (version3) scale *= luminance_of(radiance);
-  give(node, "scale", scale, p.place());
+  environment.maps.push_back({file, version3 ? version3_texel : equal_area_texel, glm::inverse(glm::dmat3(to_world)),
+                              version3 ? scale * radiance : glm::dvec3(scale)});
+  environment.place = p.place();
+}
+
+void add_environment(Context& context, const Environment& environment, Node& scene) {
+  if (!environment.place.source) return;
+  if (environment.maps.empty()) {
+    Node node = make_node("emitter", "constant", environment.place);
+    give(node, "radiance", to_rgb(environment.radiance), environment.place);
+    scene.add(std::move(node));
+    return;
+  }
+  Image image = to_latitude_longitude(environment);
+  context.memory.grow(sizeof(float) * 3 * image.channels[0].values.size());
+  Node node = make_node("emitter", "envmap", environment.place);
+  give(node, "image", std::make_shared<const Image>(std::move(image)), environment.place);
   scene.add(std::move(node));
 }
 

@@ -226,10 +226,10 @@ glm::dvec3 read_emission(Context& context, Parameters& p, std::string_view name,
 }
 
 void add_light(Context& context, ImageFiles& images, const std::string& type, Parameters& p, const ColorSpace& space,
-               const glm::dmat4& to_world, Node& scene) {
+               const glm::dmat4& to_world, Node& scene, Environment& environment) {
   static const std::vector<std::string> kTypes = {"distant", "goniometric", "infinite", "point", "projection", "spot"};
   const auto scale = [&] { return p.number("scale", 1, 0) * context.imaging_ratio; };
-  if (type == "infinite") return add_infinite_light(context, images, p, space, to_world, scene);
+  if (type == "infinite") return add_infinite_light(context, images, p, space, to_world, environment);
   if (type == "point") return add_point(p, read_emission(context, p, "I", space), scale(), to_world, scene);
   if (type == "spot") return add_spot(context, p, read_emission(context, p, "I", space), scale(), to_world, scene);
   if (type == "distant") return add_distant(p, read_emission(context, p, "L", space), scale(), to_world, scene);

@@ -4,6 +4,7 @@
 #include <glm/mat4x4.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "formats/pbrt/image_file.h"
 #include "formats/pbrt/pattern.h"
@@ -11,13 +12,28 @@
 
 namespace norrsken::pbrt {
 
-/// LightSource "type" ...: adds what it is to the scene, whose `to_world` is where the light stands.
+/// All that shines from around the scene: pbrt takes any number of lights there, which are added up.
+struct Environment {
+  struct Map {
+    std::shared_ptr<const ImageFile> file;
+    glm::dvec3 (*look_up)(const ImageFile& file, const glm::dvec3& direction);  ///< in the light's space
+    glm::dmat3 light_from_world;
+    glm::dvec3 scale;
+  };
+  glm::dvec3 radiance{0};  ///< from all directions
+  std::vector<Map> maps;
+  Place place;  ///< of the last of them; nowhere if there is none
+};
+
+/// LightSource "type" ...: adds what it is to the scene, or to its environment.
 void add_light(Context& context, ImageFiles& images, const std::string& type, Parameters& p, const ColorSpace& space,
-               const glm::dmat4& to_world, Node& scene);
+               const glm::dmat4& to_world, Node& scene, Environment& environment);
 
 /// LightSource "infinite" ...
 void add_infinite_light(Context& context, ImageFiles& images, Parameters& p, const ColorSpace& space,
-                        const glm::dmat4& to_world, Node& scene);
+                        const glm::dmat4& to_world, Environment& environment);
+/// Makes an emitter of all of them.
+void add_environment(Context& context, const Environment& environment, Node& scene);
 
 /// What AreaLightSource says of the shapes that follow.
 struct AreaLight {

@@ -23,6 +23,7 @@ glm::dvec3 k_of_reflectance(const glm::dvec3& r) {
 }
 
 double peak_of(const Pattern& pattern) {
+  if (pattern.whole) return peak_of(pattern.whole());
   constexpr int kSamples = 64;
   double peak = 0;
   for (int i = 0; i < (pattern.is_constant ? 1 : kSamples * kSamples); ++i) {

@@ -52,9 +52,9 @@ bool Materials::is_interface(const MaterialUse& use) const {
   return definition && is_interface_type(definition->type);
 }
 
-bool Materials::may_have_texture(const MaterialUse& use) const {
+bool Materials::depends_on_uv(const MaterialUse& use) const {
   const Definition* definition = find(use);
-  return !definition || definition->type == "mix" || definition->parameters.mentions_texture();
+  return !definition || definition->type == "mix" || definition->parameters.depends_on_uv();
 }
 
 std::shared_ptr<const Node> Materials::node(const MaterialUse& use) {

@@ -31,7 +31,7 @@ class Materials {
   /// Whether it is `interface`: no surface.
   bool is_interface(const MaterialUse& use) const;
   /// Whether (u, v) may matter to it, as far as is known yet.
-  bool may_have_texture(const MaterialUse& use) const;
+  bool depends_on_uv(const MaterialUse& use) const;
 
   /// Reads those, too, that nothing uses.
   void finish();

@@ -85,6 +85,16 @@ std::optional<Arrays> read_arrays(Context& context, Parameters& p, std::size_t c
 
 glm::dvec2 uv_at(const Array<double>& values, std::size_t i) { return {values[2 * i], values[2 * i + 1]}; }
 
+bool are_parallelograms(const Arrays& arrays) {
+  for (std::size_t i = 0; i < arrays.indices.size(); i += 4) {
+    glm::dvec3 corner[4];
+    for (std::size_t k = 0; k < 4; ++k) corner[k] = vector_at(*arrays.positions, arrays.indices[i + k]);
+    const glm::dvec3 twist = corner[0] + corner[3] - corner[1] - corner[2];
+    if (!(glm::length(twist) <= 1e-6 * glm::length(corner[3] - corner[0]))) return false;
+  }
+  return true;
+}
+
 std::optional<Geometry> from_mesh_data(Context& context, const Parameters& p, const MeshData& data,
                                        const Placement& placement) {
   MeshMaker maker(context, placement.to_world, placement.reverse);
@@ -101,7 +111,7 @@ std::optional<Geometry> from_mesh_data(Context& context, const Parameters& p, co
   for (const auto& t : data.triangles) maker.triangle(t[0], t[1], t[2]);
   if (placement.reverse != placement.is_mirrored()) maker.reverse_winding();
   auto geometry = maker.finish(p);
-  if (geometry) geometry->power_is_per_triangle = true;
+  if (geometry) geometry->triangles_per_primitive = 1;
   return geometry;
 }
 
@@ -117,7 +127,7 @@ std::optional<Geometry> make_triangle_mesh(Context& context, Parameters& p, cons
   const std::size_t triangles = arrays->indices.size() / 3;
   MeshMaker maker(context, placement.to_world, placement.reverse);
   // Without any, pbrt gives the corners of each triangle these.
-  const bool apart = !arrays->uv && placement.may_have_texture && triangles <= kMostApart;
+  const bool apart = !arrays->uv && placement.depends_on_uv && triangles <= kMostApart;
   const auto add = [&](std::size_t i, const glm::dvec2* uv) {
     const glm::dvec3 normal = arrays->normals ? vector_at(*arrays->normals, i) : glm::dvec3(0);
     return maker.vertex(vector_at(*arrays->positions, i), arrays->normals ? &normal : nullptr, uv);
@@ -142,7 +152,7 @@ std::optional<Geometry> make_triangle_mesh(Context& context, Parameters& p, cons
   // The front of a triangle without normals is where it was before it was mirrored.
   if (placement.reverse != placement.is_mirrored()) maker.reverse_winding();
   auto geometry = maker.finish(p);
-  if (geometry) geometry->power_is_per_triangle = true;
+  if (geometry) geometry->triangles_per_primitive = 1;
   return geometry;
 }
 
@@ -174,6 +184,7 @@ std::optional<Geometry> make_bilinear_mesh(Context& context, Parameters& p, cons
   const auto arrays = read_arrays(context, p, 4);
   if (!arrays) return std::nullopt;
   MeshMaker maker(context, placement.to_world, placement.reverse);
+  const int pieces = are_parallelograms(*arrays) ? 1 : kPatchPieces;
   for (std::size_t i = 0; i < arrays->indices.size(); i += 4) {
     const auto mix = [&](const auto& values, const glm::dvec2& at) {
       return glm::mix(glm::mix(values[0], values[1], at.x), glm::mix(values[2], values[3], at.x), at.y);
@@ -186,9 +197,6 @@ std::optional<Geometry> make_bilinear_mesh(Context& context, Parameters& p, cons
       if (arrays->normals) normals[k] = vector_at(*arrays->normals, v);
       if (arrays->uv) uv[k] = uv_at(*arrays->uv, v);
     }
-    const glm::dvec3 twist = corners[0] + corners[3] - corners[1] - corners[2];
-    const bool is_flat = glm::length(twist) <= 1e-6 * glm::length(corners[3] - corners[0]);
-    const int pieces = is_flat ? 1 : kPatchPieces;
     const auto wide = static_cast<std::uint32_t>(pieces + 1);
     maker.reserve(std::size_t{wide} * wide, 2 * static_cast<std::size_t>(pieces * pieces));
     std::uint32_t first = 0;
@@ -211,7 +219,9 @@ std::optional<Geometry> make_bilinear_mesh(Context& context, Parameters& p, cons
       }
     }
   }
-  return maker.finish(p);
+  auto geometry = maker.finish(p);
+  if (geometry) geometry->triangles_per_primitive = 2 * static_cast<std::size_t>(pieces * pieces);
+  return geometry;
 }
 
 }  // namespace norrsken::pbrt

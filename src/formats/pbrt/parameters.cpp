@@ -31,9 +31,10 @@ bool Parameters::has(std::string_view name) const {
   return std::ranges::any_of(parameters_, [name](const auto& parameter) { return parameter->name == name; });
 }
 
-bool Parameters::mentions_texture() const {
+bool Parameters::depends_on_uv() const {
   return std::ranges::any_of(parameters_, [](const auto& parameter) {
-    return parameter->type == "texture" || parameter->name == "normalmap";
+    return parameter->type == "texture" || parameter->name == "normalmap" || parameter->name.ends_with("uroughness") ||
+           parameter->name.ends_with("vroughness");
   });
 }
 

@@ -18,7 +18,7 @@ namespace norrsken::pbrt {
 struct Parameter {
   std::string type, name;
   Array<double> numbers;  ///< all components, one after the other; of a bool 0 or 1
-  std::vector<std::string> strings;
+  Array<std::string> strings;
   Place place;         ///< of "type name"
   Place value;         ///< of the first value
   bool given = false;  ///< by an Attribute directive rather than for the object itself
@@ -51,8 +51,8 @@ class Parameters {
   /// The last given of several types.
   const Parameter* find(std::initializer_list<std::string_view> types, std::string_view name);
   bool has(std::string_view name) const;  ///< of any type; does not count as asking
-  /// Whether one of them is looked up by (u, v): a texture or an image.
-  bool mentions_texture() const;
+  /// Whether one of them goes by (u, v): a texture, an image, or what differs along u and v.
+  bool depends_on_uv() const;
 
   double number(std::string_view name, double fallback, double min = -kInfinity, double max = kInfinity);
   /// A number above 0.

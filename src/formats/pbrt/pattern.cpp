@@ -58,6 +58,7 @@ Pattern Pattern::constant(const glm::dvec3& color) {
 }
 
 glm::dvec3 Pattern::mean() const {
+  if (whole) return whole().mean();
   if (is_constant) return value();
   const Domain domain = domain_of(*this);
   glm::dvec3 sum(0);
@@ -69,6 +70,7 @@ glm::dvec3 Pattern::mean() const {
 }
 
 Pattern map(const Pattern& a, const std::function<glm::dvec3(const glm::dvec3&)>& f) {
+  if (a.whole) return map(a.whole(), f);
   Pattern result = a;
   result.node = nullptr;
   if (a.is_constant) return Pattern::constant(f(a.value()));
@@ -76,7 +78,9 @@ Pattern map(const Pattern& a, const std::function<glm::dvec3(const glm::dvec3&)>
   return result;
 }
 
-Pattern map(const std::vector<Pattern>& all, const std::function<glm::dvec3(const std::vector<glm::dvec3>&)>& f) {
+Pattern map(const std::vector<Pattern>& given, const std::function<glm::dvec3(const std::vector<glm::dvec3>&)>& f) {
+  std::vector<Pattern> all;
+  for (const Pattern& pattern : given) all.push_back(pattern.whole ? pattern.whole() : pattern);
   const auto at = [all, f](const glm::dvec2& uv) {
     std::vector<glm::dvec3> values;
     for (const Pattern& pattern : all) values.push_back(pattern.at(uv));

@@ -21,6 +21,8 @@ struct Pattern {
   glm::dvec2 origin{0};                   ///< where the image begins, for those that are
   bool is_sharp = false;                  ///< each texel has one value all over
   std::shared_ptr<const Node> node = {};  ///< the texture that is this very pattern, where there is one
+  /// Of one that has nothing else yet but its node: the same with the rest, for which the image has to be read.
+  std::function<Pattern()> whole = {};
 
   static Pattern constant(const glm::dvec3& color);
   glm::dvec3 value() const { return at({0, 0}); }  ///< of a constant

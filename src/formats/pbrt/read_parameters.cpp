@@ -46,7 +46,7 @@ class ParameterReader {
   /// Null after a complaint; the values are read over in any case.
   std::shared_ptr<const Parameter> read() {
     const Token declaration = *lexer_.take();
-    auto parameter = std::make_shared<Parameter>();
+    auto parameter = std::allocate_shared<Parameter>(CountedAllocator<Parameter>());
     parameter->place = declaration.place;
     const Type* type = declare(declaration, *parameter);
     const Token* next = lexer_.peek();

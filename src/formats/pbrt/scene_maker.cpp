@@ -24,7 +24,7 @@ void SceneMaker::add_shape(const std::string& type, Parameters p, SharedParamete
   const Placement placement{
       .to_world = state.transforms.start,
       .reverse = state.reverse,
-      .may_have_texture = materials_.may_have_texture(state.material) || !alpha.empty() || (light && light->image),
+      .depends_on_uv = materials_.depends_on_uv(state.material) || !alpha.empty() || (light && light->image),
       .as_mesh = light && light->two_sided};
   if (const double determinant = glm::determinant(glm::dmat3(placement.to_world));
       !std::isfinite(determinant) || determinant == 0) {
@@ -114,6 +114,7 @@ void SceneMaker::finish_instances() {
 
 std::shared_ptr<const Node> SceneMaker::finish(Settings& settings) {
   add_settings(context_, settings, scene_);
+  add_environment(context_, environment_, scene_);
   for (Shape& shape : shapes_) finish_shape(shape, scene_);
   finish_instances();
   materials_.finish();

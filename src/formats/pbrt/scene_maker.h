@@ -20,6 +20,7 @@ class SceneMaker {
   Textures& textures() { return textures_; }
   Materials& materials() { return materials_; }
   Node& scene() { return scene_; }
+  Environment& environment() { return environment_; }
 
   /// Shape "type" ... of the world, or of the object that is open.
   void add_shape(const std::string& type, Parameters p, SharedParameters alpha, const GraphicsState& state);
@@ -59,6 +60,7 @@ class SceneMaker {
   Textures textures_;
   Materials materials_;
   Node scene_{"scene"};
+  Environment environment_;
   std::vector<Shape> shapes_;
   std::map<std::string, Object> objects_;
   Object* open_object_ = nullptr;

@@ -73,7 +73,7 @@ std::optional<Geometry> make_disk(Context& context, Parameters& p, const Placeme
   const double height = p.number("height", 0), radius = p.positive("radius", 1);
   const double inner = p.number("innerradius", 0), phi_max = read_phi(p);
   const double area = phi_max / 2 * (radius * radius - inner * inner);
-  if (inner == 0 && phi_max == glm::radians(360.0) && !placement.may_have_texture && !placement.as_mesh) {
+  if (inner == 0 && phi_max == glm::radians(360.0) && !placement.depends_on_uv && !placement.as_mesh) {
     Geometry geometry{.node = make_node("shape", "disk", p.place()), .area = area};
     const glm::dmat4 raised = glm::translate(placement.to_world, glm::dvec3(0, 0, height));
     place(geometry.node, glm::scale(raised, glm::dvec3(radius, radius, 1)), flips(placement), p);

@@ -13,9 +13,9 @@ namespace norrsken::pbrt {
 
 struct Placement {
   glm::dmat4 to_world{1};
-  bool reverse = false;          ///< ReverseOrientation
-  bool may_have_texture = true;  ///< of the material: then (u, v) has to be pbrt's
-  bool as_mesh = false;          ///< whatever it is
+  bool reverse = false;       ///< ReverseOrientation
+  bool depends_on_uv = true;  ///< the material, perhaps: then (u, v) has to be pbrt's
+  bool as_mesh = false;       ///< whatever it is
 
   bool is_mirrored() const { return glm::determinant(glm::dmat3(to_world)) < 0; }
 };
@@ -24,7 +24,7 @@ struct Geometry {
   Node node;
   std::shared_ptr<const Mesh> mesh = nullptr;  ///< of shapes that are one: in the world
   double area = 0;                             ///< as pbrt calculates it
-  bool power_is_per_triangle = false;
+  std::size_t triangles_per_primitive = 0;     ///< of a mesh of several lights; 0: the shape is one
 };
 
 /// Shape "type" ... Empty after a complaint, or if there is nothing to see. `p` is asked for all that it may have but

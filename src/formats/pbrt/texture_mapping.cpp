@@ -48,7 +48,9 @@ class Lookup {
     return finish(color);
   }
   glm::dvec3 finish(const glm::dvec3& color) const {
-    return glm::max(how_.invert ? 1.0 - how_.scale * color : how_.scale * color, glm::dvec3(0));
+    const glm::dvec3 value = how_.invert ? 1.0 - how_.scale * color : how_.scale * color;
+    // Numbers, such as heights, may be negative if nothing inverts them.
+    return how_.is_number && !how_.invert ? value : glm::max(value, glm::dvec3(0));
   }
 
   std::shared_ptr<const ImageFile> file_;
@@ -118,42 +120,65 @@ ImageLookup read_lookup(Parameters& p) {
   return lookup;
 }
 
-Pattern image_pattern(Context& context, ImageFiles& images, const Parameter& filename, const ImageLookup& lookup,
-                      const TextureMapping& mapping, bool is_number) {
+namespace {
+
+/// The file itself as a texture, where nothing is done to its values.
+Node file_node(const Parameter& filename, const ImageLookup& lookup, const TextureMapping& mapping, bool is_raw) {
+  Node node = make_node("texture", "bitmap", filename.place);
+  give(node, "filename", filename.strings[0], filename.value);
+  if (is_raw) give(node, "raw", true, filename.value);
+  if (lookup.filter == "point") give(node, "filter_type", std::string("nearest"), filename.value);
+  if (lookup.wrap != "repeat") give(node, "wrap_mode", std::string("clamp"), filename.value);
+  Property::Transform to_uv;
+  to_uv.rows[0][0] = mapping.scale.x, to_uv.rows[0][3] = mapping.shift.x;
+  to_uv.rows[1][1] = -mapping.scale.y, to_uv.rows[1][3] = 1 - mapping.shift.y;
+  give(node, "to_uv", to_uv, filename.place);
+  return node;
+}
+
+/// The image with its values changed as `lookup` says.
+Pattern drawn_pattern(ImageFiles& images, const Parameter& filename, const ImageLookup& lookup,
+                      const TextureMapping& mapping, bool is_png, bool is_alpha) {
   const std::shared_ptr<const ImageFile> file = images.read(filename);
   if (!file) return Pattern::constant(glm::dvec3(0.5));
-  const bool is_png = has_ending(filename.strings[0], ".png");
-  const bool alpha = is_number && file->alpha && lookup.filter == "bilinear" &&
-                     std::ranges::any_of(file->alpha->values, [](float a) { return a != 1; });
-  const Lookup at(file, lookup, alpha, is_png);
-  const bool repeats = lookup.wrap == "repeat";
-  if (lookup.wrap == "octahedralsphere")
-    context.tell(filename.place, "wrap 'octahedralsphere' of an image is not supported", "wrap 'clamp'");
   Pattern pattern;
   pattern.is_constant = false;
-  pattern.at = [at, mapping](const glm::dvec2& uv) { return at(mapping.at(uv)); };
+  pattern.at = [at = Lookup(file, lookup, is_alpha, is_png), mapping](const glm::dvec2& uv) {
+    return at(mapping.at(uv));
+  };
   const glm::dvec2 size(file->image.width, file->image.height);
   for (int axis = 0; axis < 2; ++axis) {
     if (mapping.scale[axis] == 0) continue;
-    pattern.period[axis] = repeats ? 1 / std::abs(mapping.scale[axis]) : Pattern::kNoPeriod;
+    pattern.period[axis] = lookup.wrap == "repeat" ? 1 / std::abs(mapping.scale[axis]) : Pattern::kNoPeriod;
     pattern.texels[axis] = size[axis] * std::abs(mapping.scale[axis]);
   }
-  if (!mapping.is_uv) return Pattern::constant(pattern.mean());
-  // With nothing done to its values the file itself is the texture.
-  const bool is_plain = lookup.scale == 1 && !lookup.invert && !alpha && lookup.wrap != "black" &&
-                        (!is_png || lookup.gamma == 0 || lookup.gamma == 1);
-  if (is_plain) {
-    Node node = make_node("texture", "bitmap", filename.place);
-    give(node, "filename", filename.strings[0], filename.value);
-    if (is_png && lookup.gamma == 1) give(node, "raw", true, filename.value);
-    if (lookup.filter == "point") give(node, "filter_type", std::string("nearest"), filename.value);
-    if (!repeats) give(node, "wrap_mode", std::string("clamp"), filename.value);
-    Property::Transform to_uv;
-    to_uv.rows[0][0] = mapping.scale.x, to_uv.rows[0][3] = mapping.shift.x;
-    to_uv.rows[1][1] = -mapping.scale.y, to_uv.rows[1][3] = 1 - mapping.shift.y;
-    give(node, "to_uv", to_uv, filename.place);
-    pattern.node = std::make_shared<const Node>(std::move(node));
+  return pattern;
+}
+
+}  // namespace
+
+Pattern image_pattern(Context& context, ImageFiles& images, const Parameter& filename, const ImageLookup& lookup,
+                      const TextureMapping& mapping) {
+  if (lookup.wrap == "octahedralsphere")
+    context.tell(filename.place, "wrap 'octahedralsphere' of an image is not supported", "wrap 'clamp'");
+  const bool is_png = has_ending(filename.strings[0], ".png");
+  bool is_alpha = false;
+  if (lookup.is_number && lookup.filter == "bilinear") {
+    const std::shared_ptr<const ImageFile> file = images.read(filename);
+    is_alpha = file && file->alpha && std::ranges::any_of(file->alpha->values, [](float a) { return a != 1; });
   }
+  const auto whole = [&images, filename, lookup, mapping, is_png, is_alpha] {
+    return drawn_pattern(images, filename, lookup, mapping, is_png, is_alpha);
+  };
+  if (!mapping.is_uv) return Pattern::constant(whole().mean());
+  const bool is_plain = lookup.scale == 1 && !lookup.invert && !is_alpha && lookup.wrap != "black" &&
+                        (!is_png || lookup.gamma == 0 || lookup.gamma == 1);
+  if (!is_plain) return whole();
+  if (context.find_file(filename).empty()) return Pattern::constant(glm::dvec3(0.5));
+  Pattern pattern;
+  pattern.is_constant = false;
+  pattern.node = std::make_shared<const Node>(file_node(filename, lookup, mapping, is_png && lookup.gamma == 1));
+  pattern.whole = whole;
   return pattern;
 }
 

@@ -25,13 +25,14 @@ struct ImageLookup {
   std::string filter = "bilinear", wrap = "repeat";
   double scale = 1;
   bool invert = false;
+  bool is_number = false;  ///< of a float texture
   /// The power that stored numbers are taken to; 1: linear. 0: sRGB. Of PNG files alone.
   double gamma = 0;
 };
 ImageLookup read_lookup(Parameters& p);
 
-/// `is_number`: of an image with an alpha channel that says something it is that, as in pbrt.
+/// A number of an image with an alpha channel that says something is that, as in pbrt.
 Pattern image_pattern(Context& context, ImageFiles& images, const Parameter& filename, const ImageLookup& lookup,
-                      const TextureMapping& mapping, bool is_number);
+                      const TextureMapping& mapping);
 
 }  // namespace norrsken::pbrt

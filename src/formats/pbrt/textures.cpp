@@ -50,7 +50,7 @@ Pattern Textures::color(Parameters& p, std::string_view name, Slot slot, const C
 
 void Textures::finish() {
   for (auto& [key, definition] : definitions_) {
-    const bool is_used = std::ranges::any_of(patterns_, [&](const auto& known) { return known.first.first == key; });
+    const bool is_used = std::ranges::any_of(patterns_, [&key = key](const auto& known) { return known.first.first == key; });
     if (!is_used) read(key, definition, key.first == "float" ? Slot::unbounded : Slot::albedo);
     definition.parameters.finish();
   }
@@ -96,8 +96,7 @@ Pattern Textures::read(const Key& key, TextureDefinition& definition, Slot slot)
     return operand(key, definition, name, fallback, slot);
   };
   const auto flat = [&](const glm::dvec3& color) {
-    context_.tell(p.place(), fmt::format("texture '{}' is not supported in three dimensions", type),
-                  "its mean value is taken");
+    context_.tell(p.place(), fmt::format("texture '{}' is not supported", type), "its mean value is taken");
     return Pattern::constant(color);
   };
   if (type == "constant") return child("value", 1);
@@ -114,17 +113,17 @@ Pattern Textures::read(const Key& key, TextureDefinition& definition, Slot slot)
     return map({child("tex1", 0), child("tex2", 1)}, [](const auto& v) { return (v[0] + v[1]) / 2.0; });
   }
   if (type == "bilerp") {
-    const Pattern v00 = child("v00", 0), v01 = child("v01", 1), v10 = child("v10", 0), v11 = child("v11", 1);
+    const auto corner = [&](const char* name, double fallback) { return child(name, fallback).mean(); };
+    const glm::dvec3 v00 = corner("v00", 0), v01 = corner("v01", 1), v10 = corner("v10", 0), v11 = corner("v11", 1);
     const TextureMapping mapping = read_mapping(context_, p);
-    const auto mean = [&] { return (v00.mean() + v01.mean() + v10.mean() + v11.mean()) / 4.0; };
-    if (!mapping.is_uv) return Pattern::constant(mean());
+    if (!mapping.is_uv) return Pattern::constant((v00 + v01 + v10 + v11) / 4.0);
     Pattern pattern;
     pattern.is_constant = false;
     pattern.period = glm::dvec2(Pattern::kNoPeriod);
     pattern.texels = glm::dvec2(256);
     pattern.at = [=](const glm::dvec2& uv) {
       const glm::dvec2 st = mapping.at(uv);
-      return glm::mix(glm::mix(v00.value(), v10.value(), st.x), glm::mix(v01.value(), v11.value(), st.x), st.y);
+      return glm::mix(glm::mix(v00, v10, st.x), glm::mix(v01, v11, st.x), st.y);
     };
     return pattern;
   }
@@ -174,14 +173,15 @@ Pattern Textures::read(const Key& key, TextureDefinition& definition, Slot slot)
 
 Pattern Textures::read_image(const Key& key, TextureDefinition& definition) {
   Parameters& p = definition.parameters;
-  const ImageLookup lookup = read_lookup(p);
+  ImageLookup lookup = read_lookup(p);
+  lookup.is_number = key.first == "float";
   const TextureMapping mapping = read_mapping(context_, p);
   const Parameter* filename = p.find("string", "filename");
   if (!filename || !p.has_values(*filename, 1)) {
     if (!filename) p.error(nullptr, "texture 'imagemap' has no file", R"("string filename" "image.png")");
     return Pattern::constant(glm::dvec3(0.5));
   }
-  return image_pattern(context_, images_, *filename, lookup, mapping, key.first == "float");
+  return image_pattern(context_, images_, *filename, lookup, mapping);
 }
 
 }  // namespace norrsken::pbrt

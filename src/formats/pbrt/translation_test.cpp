@@ -100,6 +100,8 @@ TEST(PbrtShapes, RoundOnesAreThemselvesUntilTheyAreCut) {
   EXPECT_THAT(node_of("shape", "Scale 1 2 1\nShape \"sphere\""), HasSubstr("shape mesh"));
   EXPECT_THAT(node_of("shape", "Shape \"disk\" \"float height\" 3"),
               AllOf(HasSubstr("shape disk"), HasSubstr("0 0 1 3 0 0 0 1")));
+  EXPECT_THAT(node_of("shape", "Material \"conductor\" \"float uroughness\" .1\nShape \"disk\""),
+              HasSubstr("shape mesh"));
   EXPECT_THAT(node_of("shape", "Shape \"cylinder\" \"float zmin\" -2"),
               AllOf(HasSubstr("p0 = 0 0 -2\n"), HasSubstr("p1 = 0 0 1\n")));
 }

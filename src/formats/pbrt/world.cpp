@@ -113,7 +113,6 @@ void DirectiveReader::read_world_end(const Token& word) {
 void DirectiveReader::read_block_begin(const Token& word) {
   if (word.text == "TransformBegin")
     context_.diagnostics.note(word.place.location(), "TransformBegin keeps all attributes, as AttributeBegin does");
-  context_.memory.grow(sizeof(OpenBlock));
   blocks_.push_back({OpenBlock::Kind::attributes, word.place, state_});
 }
 
@@ -248,7 +247,8 @@ void DirectiveReader::read_light_source(const Token& word) {
   if (!std::isnormal(glm::determinant(glm::dmat3(to_world))))
     return error(type->place, fmt::format("{} is placed where it has no volume", p.object()),
                  "a transform that can be undone");
-  add_light(context_, maker_.textures().images(), object.type, p, *state_.space, to_world, maker_.scene());
+  add_light(context_, maker_.textures().images(), object.type, p, *state_.space, to_world, maker_.scene(),
+            maker_.environment());
   p.finish();
 }
 
