@@ -21,7 +21,7 @@
 
 #include "displaced_sphere.h"
 #include "kernel_bench.h"
-#include "render/crew.h"
+#include "render/worker_pool.h"
 #include "tests/temporary_folder.h"
 
 namespace norrsken {
@@ -157,15 +157,15 @@ void trace_all(const std::vector<Batch>& batches, int threads, const Trace& trac
   const auto work = [&] {
     for (std::size_t i = next++; i < batches.size(); i = next++) trace(batches[i]);
   };
-  std::vector<std::jthread> crew;
-  crew.reserve(static_cast<std::size_t>(threads));
-  for (int i = 0; i < threads; ++i) crew.emplace_back(work);
+  std::vector<std::jthread> workers;
+  workers.reserve(static_cast<std::size_t>(threads));
+  for (int i = 0; i < threads; ++i) workers.emplace_back(work);
 }
 
 void render(const SceneView& scene, const KernelEntry& kernels, std::uint64_t samples, int threads) {
   const std::atomic<bool> cancelled{false};
   Film film(scene.film, scene.sampler.kind);
-  const TileGrid grid = Crew::grid(scene, film.width(), film.height());
+  const TileGrid grid = WorkerPool::grid(scene, film.width(), film.height());
   Work work{.grid = grid,
             .samples = {},
             .feature_samples = {},
@@ -174,8 +174,8 @@ void render(const SceneView& scene, const KernelEntry& kernels, std::uint64_t sa
             .feature_progress = {},
             .dropped = {}};
   work.set_goal(SampleGoal::uniform(grid, static_cast<std::uint32_t>(samples), false));
-  Crew crew(scene, kernels, film, work, threads, cancelled);
-  crew.run({std::chrono::milliseconds(100), [] { return true; }});
+  WorkerPool workers(scene, kernels, film, work, threads, cancelled);
+  workers.run({std::chrono::milliseconds(100), [] { return true; }});
 }
 
 /// By the clock, and by the processor: all threads' seconds over their number, which other work disturbs less.

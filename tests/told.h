@@ -1,5 +1,7 @@
-// For tests that look at what a call says: its diagnostics apart from its value.
+// What a call has come to, for tests: its diagnostics apart from its value, or the value that it must have.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <memory>
 #include <optional>
@@ -19,6 +21,13 @@ template <class T>
 std::unique_ptr<T> told(Result<std::unique_ptr<T>> result, Diagnostics& diagnostics) {
   diagnostics = result.diagnostics();
   return result ? *std::move(result) : nullptr;
+}
+
+/// Where there must be a value; otherwise the test fails, and goes on with an empty one.
+template <class T>
+T value_of(Result<T> result) {
+  EXPECT_TRUE(result) << result.error();
+  return result ? *std::move(result) : T();
 }
 
 }  // namespace norrsken

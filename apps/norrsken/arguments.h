@@ -1,9 +1,7 @@
 // The pieces of which the subcommands build their command lines.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,18 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "exit_status.h"
+#include "command_line.h"
 #include "norrsken/memory.h"
 #include "norrsken/render.h"
 #include "norrsken/scene.h"
 
 namespace norrsken::cli {
-
-/// What a subcommand does once the whole command line is understood; the result is the exit status.
-using Action = std::function<ExitStatus()>;
-
-/// "unknown WHAT 'WORD', did you mean 'X'? accepted: X, Y".
-std::string unknown_word(std::string_view what, std::string_view word, const std::vector<std::string>& accepted);
 
 /// "NAME=VALUE" taken apart at the first '='; the name is empty if there is none.
 std::pair<std::string, std::string> parse_definition(const std::string& text);
@@ -39,24 +31,23 @@ std::optional<std::uint64_t> parse_memory_size(const std::string& text);
 /// "16:64": samples 16 to 63; empty if it is anything else, or no sample.
 std::optional<SampleRange> parse_samples(const std::string& text);
 
-// Checks of one value; a complaint tells what was found and what is accepted.
-CLI::Validator whole_number(std::int64_t min, std::int64_t max);
-CLI::Validator seed_number();
-CLI::Validator real_number(double min, double max);
-CLI::Validator one_of(std::vector<std::string> words);
-CLI::Validator image_size();
-CLI::Validator definition();
-CLI::Validator duration();
-CLI::Validator file_name();
-CLI::Validator sample_range();
-CLI::Validator share();
-CLI::Validator memory_size();
+Check whole_number(std::int64_t min, std::int64_t max);
+Check seed_number();
+Check real_number(double min, double max);
+Check one_of(std::vector<std::string> words);
+Check image_size();
+Check definition();
+Check duration();
+Check file_name();
+Check sample_range();
+Check share();
+Check memory_size();
 
 /// How much memory the program may take: --max-memory.
 struct MemoryArguments {
   std::string size;  ///< empty: what the machine has
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
   std::shared_ptr<MemoryBudget> budget() const;
 };
 
@@ -68,7 +59,7 @@ struct SceneArguments {
   MemoryArguments memory;
   int spp = 0;  ///< 0: the scene's
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
   LoadOptions load_options() const;
 };
 
@@ -77,7 +68,7 @@ struct MachineArguments {
   int threads = 0;
   std::string isa = "auto", accelerator = "auto";
 
-  void add_to(CLI::App& command, bool with_accelerator = true);
+  void add_to(Command& command);
   void apply_to(RenderOptions& options) const;
 };
 
@@ -86,17 +77,8 @@ struct ToneArguments {
   float exposure = 0;
   std::string curve = "srgb";
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
   ToneMapping tone_mapping() const;
 };
-
-/// Help in words of this program in place of CLI11's own.
-std::shared_ptr<CLI::Formatter> help_formatter();
-
-/// Names of the commands, in order.
-std::vector<std::string> command_names(const CLI::App& app);
-
-/// What is wrong with the command line, as one sentence with a suggestion where there is one.
-std::string describe_usage_error(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace norrsken::cli

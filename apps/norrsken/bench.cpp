@@ -1,7 +1,7 @@
 // norrsken bench: how fast a scene renders, as one line of JSON.
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "arguments.h"
 #include "commands.h"
 #include "console.h"
 #include "interrupt.h"
@@ -16,7 +16,7 @@ struct Arguments {
   int repeat = 5;
 };
 
-nlohmann::ordered_json spread(std::vector<double> values) {
+Json spread(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   const double median = n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
@@ -72,22 +72,21 @@ ExitStatus bench(const Arguments& arguments) {
 
 }  // namespace
 
-void add_bench_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("bench", "Measure how fast a scene renders");
+Command bench_command() {
   auto arguments = std::make_shared<Arguments>();
-  arguments->scene.add_to(*command);
-  command->add_option("--repeat", arguments->repeat, "Measured runs, after one that is not counted; default 5")
-      ->check(whole_number(1, 1000))
-      ->type_name("N");
-  arguments->machine.add_to(*command);
-  command->footer(
+  Command command = {.name = "bench", .summary = "Measure how fast a scene renders"};
+  arguments->scene.add_to(command);
+  command.options.push_back({"--repeat", &arguments->repeat, "N",
+                             "Measured runs, after one that is not counted; default 5", whole_number(1, 1000)});
+  arguments->machine.add_to(command);
+  command.footer =
       "Prints one line of JSON: median, least and greatest seconds, million camera samples and million rays a\n"
       "second over the runs, and the number of rays of each type of one run. Nothing is written.\n\n"
       "Examples:\n"
       "  norrsken bench hexagon_room -Dshadow_rays=1 --sampler independent --spp 64\n"
-      "  norrsken bench hexagon_room --isa avx2 --threads 1 --repeat 9");
-  command->group("Commands");
-  command->callback([&action, arguments] { action = [arguments] { return bench(*arguments); }; });
+      "  norrsken bench hexagon_room --isa avx2 --threads 1 --repeat 9";
+  command.run = [arguments] { return bench(*arguments); };
+  return command;
 }
 
 }  // namespace norrsken::cli

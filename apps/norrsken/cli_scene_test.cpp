@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "process_testing.h"
+#include "tests/process.h"
 #include "tests/temporary_folder.h"
 
 namespace norrsken::cli {

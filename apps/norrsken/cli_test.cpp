@@ -145,8 +145,7 @@ TEST_F(Cli, RendersEveryOutputAndTheDefaultOne) {
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, IsEmpty());
   EXPECT_THAT(result.err, HasSubstr("wrote a.exr, a.png"));
-  Image image;
-  ASSERT_TRUE(read_image(folder_.file("a.exr"), image));
+  const Image image = image_of("a.exr");
   EXPECT_EQ(image.width, 40);
   EXPECT_EQ(image.height, 30);
   EXPECT_NE(image.find("variance.R"), nullptr);
@@ -157,8 +156,7 @@ TEST_F(Cli, RendersEveryOutputAndTheDefaultOne) {
 TEST_F(Cli, SeedAndThreadsDecideAsPromised) {
   const auto render = [&](const std::string& file, const std::vector<std::string>& more) {
     EXPECT_EQ(run(std::vector<std::string>{"render", "hexagon_room", "-o", file} + kShort + more).status, 0);
-    Image image;
-    EXPECT_TRUE(read_image(folder_.file(file), image));
+    const Image image = image_of(file);
     return image.find("R")->values;
   };
   const auto one = render("one.exr", {"--threads", "1"});
@@ -170,8 +168,7 @@ TEST_F(Cli, ReplaysOneSample) {
   const std::vector<std::string> one = {"render", "hexagon_room", "-Dshadow_rays=1", "--size", "40x30", "--spp",
                                         "1",      "--sampler",    "independent",     "--isa",  "scalar"};
   ASSERT_EQ(run(one + std::vector<std::string>{"-o", "a.exr", "--seed", "3"}).status, 0);
-  Image image;
-  ASSERT_TRUE(read_image(folder_.file("a.exr"), image));
+  const Image image = image_of("a.exr");
   const ProcessResult text = run(one + std::vector<std::string>{"--seed", "3", "--pixel", "12,20", "--trace"});
   EXPECT_EQ(text.status, 0);
   EXPECT_THAT(text.out, AllOf(StartsWith("sample 0 of pixel 12, 20\n"), HasSubstr("\n  1  ray from (-0.99, "),
@@ -213,8 +210,7 @@ TEST_F(Cli, SamplesThatAreInfiniteAreToldWithTheCommandThatReplaysThem) {
   EXPECT_THAT(replayed.out, AllOf(HasSubstr("light sample for diffuse: along ("), HasSubstr(" adds (inf, "),
                                   HasSubstr("\nradiance (inf, ")));
 
-  Image image;
-  ASSERT_TRUE(read_image(folder_.file("a.exr"), image));
+  const Image image = image_of("a.exr");
   for (const char* channel : {"R", "G", "B"}) {
     for (const float value : image.find(channel)->values) ASSERT_TRUE(std::isfinite(value));
   }
@@ -247,8 +243,7 @@ TEST_F(Cli, InterruptSavesAndSays) {
                                   HasSubstr("wrote part.exr"),
                                   HasSubstr("of 1000000 samples per pixel; with --checkpoint FILE, the same command "
                                             "would go on\n")));
-    Image image;
-    ASSERT_TRUE(read_image(folder_.file("part.exr"), image));
+    const Image image = image_of("part.exr");
     double sum = 0;
     for (const float value : image.find("R")->values) sum += value;
     EXPECT_GT(sum, 0);

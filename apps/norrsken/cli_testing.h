@@ -11,8 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "process_testing.h"
+#include "norrsken/image.h"
+#include "tests/process.h"
 #include "tests/temporary_folder.h"
+#include "tests/told.h"
 
 namespace norrsken::cli {
 
@@ -44,6 +46,7 @@ class Cli : public testing::Test {
     std::ifstream file(folder_ / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
+  Image image_of(const std::string& name) const { return value_of(read_image(folder_.file(name))); }
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))

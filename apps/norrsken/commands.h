@@ -1,16 +1,16 @@
-// The subcommands. Each adds itself to the command line and, if chosen, sets what is to be done.
+// The commands, each with its options and what it does.
 #pragma once
 
-#include "arguments.h"
+#include "command_line.h"
 
 namespace norrsken::cli {
 
-void add_render_command(CLI::App& app, Action& action);
-void add_merge_command(CLI::App& app, Action& action);
-void add_info_command(CLI::App& app, Action& action);
-void add_scenes_command(CLI::App& app, Action& action);
-void add_compare_command(CLI::App& app, Action& action);
-void add_bench_command(CLI::App& app, Action& action);
-void add_figures_command(CLI::App& app, Action& action);
+Command render_command();
+Command merge_command();
+Command info_command();
+Command scenes_command();
+Command compare_command();
+Command bench_command();
+Command figures_command();
 
 }  // namespace norrsken::cli

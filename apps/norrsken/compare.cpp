@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "arguments.h"
 #include "commands.h"
 #include "console.h"
 #include "file_use.h"
@@ -47,25 +47,28 @@ ExitStatus check_output(const Arguments& arguments) {
 }
 
 void print_as_json(const Arguments& arguments, const Comparison& comparison) {
-  nlohmann::ordered_json object = {{"image", arguments.a},
-                                   {"reference", arguments.b},
-                                   {"mse", comparison.mse},
-                                   {"rel_mse", comparison.rel_mse},
-                                   {"psnr", comparison.psnr},
-                                   {"flip", comparison.flip},
-                                   {"mean", comparison.mean_a},
-                                   {"reference_mean", comparison.mean_b},
-                                   {"nan_pixels", comparison.nan_a},
-                                   {"reference_nan_pixels", comparison.nan_b},
-                                   {"z_test", nullptr}};
+  Json z_test;
   if (const auto& z = comparison.z_test) {
-    object["z_test"] = {
-        {"passed_share", z->passed_share}, {"rms_z", z->rms_z}, {"mean_z", z->mean_z}, {"noise_estimated_of", nullptr}};
-    if (z->estimated != Comparison::ZTest::Estimated::neither) {
-      object["z_test"]["noise_estimated_of"] = z->estimated == Comparison::ZTest::Estimated::a ? "image" : "reference";
-    }
+    const auto estimated = z->estimated;
+    z_test = {{"passed_share", z->passed_share},
+              {"rms_z", z->rms_z},
+              {"mean_z", z->mean_z},
+              {"noise_estimated_of", estimated == Comparison::ZTest::Estimated::neither ? Json()
+                                     : estimated == Comparison::ZTest::Estimated::a     ? Json("image")
+                                                                                        : Json("reference")}};
   }
-  if (!arguments.output.empty()) object["file"] = arguments.output;
+  Json object = {{"image", arguments.a},
+                 {"reference", arguments.b},
+                 {"mse", comparison.mse},
+                 {"rel_mse", comparison.rel_mse},
+                 {"psnr", comparison.psnr},
+                 {"flip", comparison.flip},
+                 {"mean", comparison.mean_a},
+                 {"reference_mean", comparison.mean_b},
+                 {"nan_pixels", comparison.nan_a},
+                 {"reference_nan_pixels", comparison.nan_b},
+                 {"z_test", z_test}};
+  if (!arguments.output.empty()) object.add("file", arguments.output);
   print_json(object);
 }
 
@@ -118,25 +121,30 @@ ExitStatus compare_images(const Arguments& arguments) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("compare", "Tell how far an image is from a reference");
+Command compare_command() {
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("IMAGE", arguments->a, "Image to judge")->required()->type_name("");
-  command->add_option("REFERENCE", arguments->b, "Image taken as right, of the same size")->required()->type_name("");
-  command->add_option("-o,--output", arguments->output, "Write the absolute difference to this EXR, PNG or JPEG file")
-      ->type_name("FILE");
-  arguments->tone.add_to(*command);
-  arguments->memory.add_to(*command);
-  command->add_flag("--json", arguments->json, "Print one JSON object");
-  command->footer(
+  Command command = {
+      .name = "compare",
+      .summary = "Tell how far an image is from a reference",
+      .options = {
+          {.names = "IMAGE", .target = &arguments->a, .help = "Image to judge", .is_required = true},
+          {.names = "REFERENCE",
+           .target = &arguments->b,
+           .help = "Image taken as right, of the same size",
+           .is_required = true},
+          {"-o,--output", &arguments->output, "FILE", "Write the absolute difference to this EXR, PNG or JPEG file"}}};
+  arguments->tone.add_to(command);
+  arguments->memory.add_to(command);
+  command.options.push_back({.names = "--json", .target = &arguments->json, .help = "Print one JSON object"});
+  command.footer =
       "MSE and relMSE are of linear radiance, PSNR and FLIP of the tone-mapped images. The z-test asks, for every\n"
       "pixel, whether both images can be estimates of the same picture; it needs variance layers in both of them. If\n"
       "one has none, its noise is estimated from differences between neighbouring pixels.\n\n"
       "Examples:\n"
       "  norrsken compare room.exr reference.exr\n"
-      "  norrsken compare room.exr reference.exr -o difference.png --exposure 2");
-  command->group("Commands");
-  command->callback([&action, arguments] { action = [arguments] { return compare_images(*arguments); }; });
+      "  norrsken compare room.exr reference.exr -o difference.png --exposure 2";
+  command.run = [arguments] { return compare_images(*arguments); };
+  return command;
 }
 
 }  // namespace norrsken::cli

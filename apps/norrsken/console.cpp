@@ -10,7 +10,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
 namespace norrsken::cli {
 namespace {
@@ -111,8 +110,8 @@ void print_diagnostics(const Diagnostics& diagnostics, bool with_warnings) {
 
 void print_line(std::string_view text) { write_line(safe_to_print(text)); }
 
-void print_json(const nlohmann::ordered_json& object) {
-  write_line(with_escaped_controls(object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
+void print_json(const Json& object) {
+  write_line(with_escaped_controls(object.text()));
   std::fflush(stdout);
 }
 

@@ -1,12 +1,12 @@
 // What the program says and where: failures, warnings and notes on stderr, results on stdout.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "exit_status.h"
+#include "json.h"
 #include "norrsken/diagnostics.h"
 
 namespace norrsken::cli {
@@ -47,9 +47,8 @@ void print_diagnostics(const Diagnostics& diagnostics, bool with_warnings = true
 
 /// A line of text on stdout.
 void print_line(std::string_view text);
-/// One JSON object on one line of stdout, at once. Numbers that are not finite become null, bytes that are not UTF-8
-/// the replacement character.
-void print_json(const nlohmann::ordered_json& object);
+/// One JSON object on one line of stdout, at once.
+void print_json(const Json& object);
 /// Flushes stdout; a Failure if anything printed there was lost (full disk, closed pipe).
 void finish_stdout();
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "console.h"
 #include "norrsken/image.h"
@@ -11,19 +10,17 @@
 
 namespace norrsken::cli {
 
-ExitStatus tell_image(const std::string& path, bool json) {
+ExitStatus print_image_info(const std::string& path, bool json) {
   ImageHeader header;
   if (const IoStatus status = read_image_header(path, header); !status)
     throw Failure(unreadable_input_status(path), status.error);
   if (json) {
-    auto metadata = nlohmann::ordered_json::object();
-    for (const auto& [name, text] : header.metadata) metadata[name] = text;
     print_json({{"image", path},
                 {"format", header.format},
                 {"width", header.width},
                 {"height", header.height},
                 {"channels", header.channels},
-                {"metadata", metadata}});
+                {"metadata", Json::object(header.metadata)}});
     return ExitStatus::done;
   }
   print_line(path);

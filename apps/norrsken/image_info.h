@@ -8,6 +8,6 @@
 namespace norrsken::cli {
 
 /// Prints size, channels and texts of an EXR or PNG file.
-ExitStatus tell_image(const std::string& path, bool json);
+ExitStatus print_image_info(const std::string& path, bool json);
 
 }  // namespace norrsken::cli

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "arguments.h"
 #include "commands.h"
 #include "console.h"
 #include "image_info.h"
@@ -20,43 +20,41 @@ struct Arguments {
 };
 
 void print_as_json(const std::string& scene, const SceneInfo& info) {
-  auto items = nlohmann::ordered_json::array();
+  Json items = Json::array();
   for (const SceneInfo::Item& item : info.items)
-    items.push_back({{"kind", item.kind}, {"plugin", item.plugin}, {"id", item.id}, {"detail", item.detail}});
-  auto parameters = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : info.parameters) parameters[name] = value;
-  nlohmann::ordered_json object = {{"scene", scene},
-                                   {"width", info.width},
-                                   {"height", info.height},
-                                   {"samples_per_pixel", info.samples_per_pixel},
-                                   {"sensor", info.sensor},
-                                   {"sensor_id", info.sensor_id},
-                                   {"sampler", info.sampler},
-                                   {"integrator", info.integrator},
-                                   {"max_depth", info.max_depth},
-                                   {"rr_depth", info.rr_depth},
-                                   {"emitter_samples", info.emitter_samples},
-                                   {"triangles", info.triangles},
-                                   {"spheres", info.spheres},
-                                   {"other_shapes", info.other_shapes},
-                                   {"instances", info.instances},
-                                   {"lights", info.lights},
-                                   {"bounds_min", info.bounds_min},
-                                   {"bounds_max", info.bounds_max},
-                                   {"table_bytes", info.memory.tables()},
-                                   {"memory",
-                                    {{"geometry_bytes", info.memory.geometry},
-                                     {"texture_bytes", info.memory.textures},
-                                     {"film_bytes", info.memory.film},
-                                     {"image_bytes", info.memory.image},
-                                     {"loading_peak_bytes", info.memory.loading},
-                                     {"acceleration_estimate_bytes", info.memory.acceleration}}},
-                                   {"parameters", parameters},
-                                   {"changes", info.changes},
-                                   {"files", info.files},
-                                   {"hash", info.hash},
-                                   {"items", items}};
-  if (!info.accelerator.empty()) object["accelerator"] = info.accelerator;
+    items.add({{"kind", item.kind}, {"plugin", item.plugin}, {"id", item.id}, {"detail", item.detail}});
+  Json object = {{"scene", scene},
+                 {"width", info.width},
+                 {"height", info.height},
+                 {"samples_per_pixel", info.samples_per_pixel},
+                 {"sensor", info.sensor},
+                 {"sensor_id", info.sensor_id},
+                 {"sampler", info.sampler},
+                 {"integrator", info.integrator},
+                 {"max_depth", info.max_depth},
+                 {"rr_depth", info.rr_depth},
+                 {"emitter_samples", info.emitter_samples},
+                 {"triangles", info.triangles},
+                 {"spheres", info.spheres},
+                 {"other_shapes", info.other_shapes},
+                 {"instances", info.instances},
+                 {"lights", info.lights},
+                 {"bounds_min", info.bounds_min},
+                 {"bounds_max", info.bounds_max},
+                 {"table_bytes", info.memory.tables()},
+                 {"memory",
+                  {{"geometry_bytes", info.memory.geometry},
+                   {"texture_bytes", info.memory.textures},
+                   {"film_bytes", info.memory.film},
+                   {"image_bytes", info.memory.image},
+                   {"loading_peak_bytes", info.memory.loading},
+                   {"acceleration_estimate_bytes", info.memory.acceleration}}},
+                 {"parameters", Json::object(info.parameters)},
+                 {"changes", info.changes},
+                 {"files", info.files},
+                 {"hash", info.hash},
+                 {"items", items}};
+  if (!info.accelerator.empty()) object.add("accelerator", info.accelerator);
   print_json(object);
 }
 
@@ -114,18 +112,18 @@ void print_as_text(const std::string& scene, const SceneInfo& info) {
 }
 
 /// Images are what they are: nothing is set in them.
-ExitStatus tell_of_image(const Arguments& arguments) {
+ExitStatus print_info_of_image(const Arguments& arguments) {
   const SceneArguments& scene = arguments.scene;
   if (!scene.definitions.empty() || scene.integrator || scene.sampler || !scene.size.empty() || scene.spp > 0 ||
       scene.sensor)
     throw Failure(ExitStatus::usage,
                   fmt::format("'{}' is an image: options of scenes have no place beside it", scene.scene));
-  return tell_image(scene.scene, arguments.json);
+  return print_image_info(scene.scene, arguments.json);
 }
 
-ExitStatus tell(const Arguments& arguments) {
+ExitStatus print_info(const Arguments& arguments) {
   const std::string& name = arguments.scene.scene;
-  if (has_image_header(name)) return tell_of_image(arguments);
+  if (has_image_header(name)) return print_info_of_image(arguments);
   if (is_checkpoint(name))
     throw Failure(ExitStatus::data_error,
                   fmt::format("'{0}' is a checkpoint, neither a scene nor an image: 'norrsken merge {0} -o image.exr' "
@@ -140,16 +138,16 @@ ExitStatus tell(const Arguments& arguments) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("info", "Tell what a scene contains, or how an image was made");
+Command info_command() {
   auto arguments = std::make_shared<Arguments>();
-  arguments->scene.add_to(*command);
-  command->add_flag("--json", arguments->json, "Print one JSON object");
-  command->footer(
+  Command command = {.name = "info", .summary = "Tell what a scene contains, or how an image was made"};
+  arguments->scene.add_to(command);
+  command.options.push_back({.names = "--json", .target = &arguments->json, .help = "Print one JSON object"});
+  command.footer =
       "Examples:\n  norrsken info hexagon_room\n  norrsken info hexagon_room -Dlight=point --json\n  norrsken info "
-      "room.exr");
-  command->group("Commands");
-  command->callback([&action, arguments] { action = [arguments] { return tell(*arguments); }; });
+      "room.exr";
+  command.run = [arguments] { return print_info(*arguments); };
+  return command;
 }
 
 }  // namespace norrsken::cli

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "process_testing.h"
+#include "tests/process.h"
 #include "tests/temporary_folder.h"
 
 namespace norrsken::cli {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arguments.h"
 #include "commands.h"
 #include "console.h"
 #include "file_use.h"
@@ -73,25 +74,29 @@ ExitStatus merge(const Arguments& arguments) {
 
 }  // namespace
 
-void add_merge_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
-      "merge", "Make an image of checkpoints: join the samples that renderings of a scene have taken");
+Command merge_command() {
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("FILE", arguments->files, "Checkpoints that 'norrsken render' has written, finished or not")
-      ->required()
-      ->type_name("");
-  command->add_option("-o,--output", arguments->outputs, "Image to write: .exr, .png or .jpg; may be repeated")
-      ->required()
-      ->take_all()
-      ->allow_extra_args(false)
-      ->type_name("FILE");
-  command->add_flag(
-      "--layers", arguments->layers,
-      "Add sample count, variance, error and 95 % interval layers to EXR files, and features that were rendered");
-  arguments->tone.add_to(*command);
-  arguments->memory.add_to(*command);
-  command->add_flag("--quiet", arguments->quiet, "Print errors and warnings only");
-  command->footer(
+  Command command = {
+      .name = "merge",
+      .summary = "Make an image of checkpoints: join the samples that renderings of a scene have taken",
+      .options = {{.names = "FILE",
+                   .target = &arguments->files,
+                   .help = "Checkpoints that 'norrsken render' has written, finished or not",
+                   .is_required = true},
+                  {.names = "-o,--output",
+                   .target = &arguments->outputs,
+                   .value = "FILE",
+                   .help = "Image to write: .exr, .png or .jpg; may be repeated",
+                   .is_required = true},
+                  {.names = "--layers",
+                   .target = &arguments->layers,
+                   .help = "Add sample count, variance, error and 95 % interval layers to EXR files, and features that "
+                           "were rendered"}}};
+  arguments->tone.add_to(command);
+  arguments->memory.add_to(command);
+  command.options.push_back(
+      {.names = "--quiet", .target = &arguments->quiet, .help = "Print errors and warnings only"});
+  command.footer =
       "The image is that of one rendering of all samples, bit for bit, in whatever order the files are named. Files "
       "of\n"
       "other scenes, settings or instruction sets are refused, and so are samples that two files hold; samples that "
@@ -100,9 +105,9 @@ void add_merge_command(CLI::App& app, Action& action) {
       "Examples:\n"
       "  norrsken render hexagon_room -Dshadow_rays=1 --samples 0:32 --checkpoint a.part\n"
       "  norrsken render hexagon_room -Dshadow_rays=1 --samples 32:64 --checkpoint b.part\n"
-      "  norrsken merge a.part b.part -o room.exr -o room.png");
-  command->group("Commands");
-  command->callback([&action, arguments] { action = [arguments] { return merge(*arguments); }; });
+      "  norrsken merge a.part b.part -o room.exr -o room.png";
+  command.run = [arguments] { return merge(*arguments); };
+  return command;
 }
 
 }  // namespace norrsken::cli

@@ -206,9 +206,7 @@ TEST_F(NothingLost, ACheckpointBecomesAnImageWhileItIsWritten) {
   EXPECT_EQ(rendering.stop().status, 77);
   // In the end, the same picture.
   ASSERT_EQ(run({"merge", "c.ckpt", "-o", "m.exr", "--layers", "--quiet"}).status, 0);
-  Image image, image_of_merge;
-  ASSERT_TRUE(read_image(folder_.file("a.exr"), image));
-  ASSERT_TRUE(read_image(folder_.file("m.exr"), image_of_merge));
+  const Image image = image_of("a.exr"), image_of_merge = image_of("m.exr");
   for (const char* channel : {"R", "G", "B", "samples"})
     EXPECT_EQ(image.find(channel)->values, image_of_merge.find(channel)->values) << channel;
   EXPECT_EQ(metadata_of("m.exr")["norrsken.relative_error"], metadata_of("a.exr")["norrsken.relative_error"]);

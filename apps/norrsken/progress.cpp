@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
@@ -54,12 +53,9 @@ std::string progress_line(const std::string& label, const RenderProgress& progre
   return fmt::format("{}", fmt::join(parts, "")).substr(0, static_cast<std::size_t>(std::max(columns, 0)));
 }
 
-void add_error(nlohmann::ordered_json& object, const RelativeError& error) {
-  object["relative_error"] = nullptr;
-  object["relative_error_interval"] = nullptr;
-  if (error.value < 0) return;
-  object["relative_error"] = error.value;
-  if (error.value > 0) object["relative_error_interval"] = {error.low, error.high};
+void add_error(Json& object, const RelativeError& error) {
+  object.add("relative_error", error.value < 0 ? Json() : Json(error.value));
+  object.add("relative_error_interval", error.value > 0 ? Json(std::array{error.low, error.high}) : Json());
 }
 
 void ProgressMeter::start(std::string label) {
@@ -73,14 +69,13 @@ void ProgressMeter::update(const RenderProgress& progress) {
   const auto now = Clock::now();
   if (verbosity_ == Verbosity::json) {
     if (now - last_ < kJsonInterval && !is_last(progress)) return;
-    nlohmann::ordered_json object = {{"event", "progress"},
-                                     {"samples_done", progress.samples_done},
-                                     {"samples_total", progress.samples_total},
-                                     {"elapsed_seconds", progress.elapsed_seconds},
-                                     {"left_seconds", nullptr},
-                                     {"samples_per_second", progress.samples_per_second}};
-    if (progress.seconds_left >= 0) object["left_seconds"] = progress.seconds_left;
-    object["fraction"] = progress.fraction;
+    Json object = {{"event", "progress"},
+                   {"samples_done", progress.samples_done},
+                   {"samples_total", progress.samples_total},
+                   {"elapsed_seconds", progress.elapsed_seconds},
+                   {"left_seconds", progress.seconds_left >= 0 ? Json(progress.seconds_left) : Json()},
+                   {"samples_per_second", progress.samples_per_second},
+                   {"fraction", progress.fraction}};
     add_error(object, progress.error);
     print_json(object);
   } else if (verbosity_ == Verbosity::text && stderr_is_terminal()) {

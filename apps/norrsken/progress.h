@@ -2,16 +2,16 @@
 #pragma once
 
 #include <chrono>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
+#include "json.h"
 #include "norrsken/render.h"
 
 namespace norrsken::cli {
 
 /// `relative_error` and `relative_error_interval`, null while unknown; the interval also as long as no noise was seen.
-void add_error(nlohmann::ordered_json& object, const RelativeError& error);
+void add_error(Json& object, const RelativeError& error);
 
 /// " 42 %  3.20 M/7.68 M samples  12 s, 16 s left  17.2 Msamples/s  error 1.83 %", with `label` in front. Of what does
 /// not fit into `columns` characters, the samples are left out first, then speed, time and error.

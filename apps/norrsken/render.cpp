@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
+#include "arguments.h"
 #include "commands.h"
 #include "console.h"
 #include "file_use.h"
@@ -63,13 +63,7 @@ void warn_about_useless_options(const Arguments& arguments) {
     print_warning("EXR files hold linear radiance: --exposure and --tone change PNG and JPEG files only");
 }
 
-nlohmann::ordered_json or_null(const std::string& text) {
-  return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
-}
-template <class T>
-nlohmann::ordered_json or_null(const std::optional<T>& value) {
-  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
-}
+Json or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
 /// Samples of each pixel that are asked for; nothing if an error or a time says when to end.
 std::optional<int> sample_count(const Arguments& arguments, const SceneInfo& info) {
@@ -95,9 +89,9 @@ void tell_start(const Arguments& arguments, const SceneInfo& info) {
                 {"scene", arguments.scene.scene},
                 {"width", info.width},
                 {"height", info.height},
-                {"samples_per_pixel", or_null(sample_count(arguments, info))},
-                {"target_error", or_null(parse_share(arguments.target_error))},
-                {"time", or_null(parse_duration(arguments.time))},
+                {"samples_per_pixel", sample_count(arguments, info)},
+                {"target_error", parse_share(arguments.target_error)},
+                {"time", parse_duration(arguments.time)},
                 {"adaptive", arguments.adaptive},
                 {"seed", arguments.seed},
                 {"samples", or_null(arguments.samples)},
@@ -149,26 +143,26 @@ void tell_done(const Arguments& arguments, const SceneInfo& info, const RenderSt
   const double seconds = std::max(statistics.seconds, 1e-9);
   const double rays = static_cast<double>(statistics.closest_rays + statistics.shadow_rays);
   if (arguments.json) {
-    auto dropped = nlohmann::ordered_json::array();
+    Json dropped = Json::array();
     for (const DroppedSample& sample : statistics.dropped)
-      dropped.push_back({{"x", sample.x}, {"y", sample.y}, {"sample", sample.sample}});
-    nlohmann::ordered_json object = {{"event", "done"},
-                                     {"interrupted", statistics.cancelled},
-                                     {"seconds", statistics.seconds},
-                                     {"samples", statistics.samples},
-                                     {"samples_resumed", statistics.samples_resumed},
-                                     {"samples_per_pixel", samples / pixels},
-                                     {"samples_per_second", taken / seconds},
-                                     {"closest_rays", statistics.closest_rays},
-                                     {"shadow_rays", statistics.shadow_rays},
-                                     {"rays_per_second", rays / seconds},
-                                     {"dropped_samples", statistics.dropped_samples},
-                                     {"dropped", dropped},
-                                     {"isa", statistics.isa},
-                                     {"lanes", statistics.lanes},
-                                     {"threads", statistics.threads},
-                                     {"accelerator", statistics.accelerator},
-                                     {"files", written}};
+      dropped.add({{"x", sample.x}, {"y", sample.y}, {"sample", sample.sample}});
+    Json object = {{"event", "done"},
+                   {"interrupted", statistics.cancelled},
+                   {"seconds", statistics.seconds},
+                   {"samples", statistics.samples},
+                   {"samples_resumed", statistics.samples_resumed},
+                   {"samples_per_pixel", samples / pixels},
+                   {"samples_per_second", taken / seconds},
+                   {"closest_rays", statistics.closest_rays},
+                   {"shadow_rays", statistics.shadow_rays},
+                   {"rays_per_second", rays / seconds},
+                   {"dropped_samples", statistics.dropped_samples},
+                   {"dropped", dropped},
+                   {"isa", statistics.isa},
+                   {"lanes", statistics.lanes},
+                   {"threads", statistics.threads},
+                   {"accelerator", statistics.accelerator},
+                   {"files", written}};
     add_error(object, statistics.error);
     print_json(object);
     return;
@@ -306,60 +300,49 @@ ExitStatus render(Arguments arguments) {
 
 }  // namespace
 
-void add_render_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("render", "Render a scene to image files");
+Command render_command() {
   auto arguments = std::make_shared<Arguments>();
-  arguments->scene.add_to(*command);
-  command
-      ->add_option("-o,--output", arguments->outputs,
-                   "Image to write: .exr (linear float), .png or .jpg (tone-mapped); may be repeated;\n"
-                   "default: the scene's name with .exr, in the current folder")
-      ->take_all()
-      ->allow_extra_args(false)
-      ->type_name("FILE");
-  command->add_option("--seed", arguments->seed, "Seed of the random numbers; default 0")
-      ->check(seed_number())
-      ->type_name("S");
-  arguments->machine.add_to(*command);
-  command
-      ->add_option("--checkpoint", arguments->checkpoint,
-                   "File that keeps the state of the rendering; the same command goes on from it, also with more --spp")
-      ->check(file_name())
-      ->type_name("FILE");
-  command
-      ->add_option("--checkpoint-every", arguments->checkpoint_every,
-                   "How often it is written: 90s, 5m, 1h; default 60s")
-      ->check(duration())
-      ->type_name("TIME");
-  command
-      ->add_option(
-          "--samples", arguments->samples,
-          "Take the samples A to B-1 of each pixel alone (of --spp in all) and leave them in the checkpoint, for\n"
-          "'norrsken merge'")
-      ->check(sample_range())
-      ->type_name("A:B");
-  command
-      ->add_option("--target-error", arguments->target_error,
-                   "Render until the estimated error of the whole image (RMSE over mean) is at most this: 1%, 0.005;\n"
-                   "--spp is the most to take then")
-      ->check(share())
-      ->type_name("E");
-  command
-      ->add_option("--time", arguments->time,
-                   "Render for so long: 30s, 5m, 1h, without loading and writing; --spp is\nthe most to take then")
-      ->check(duration())
-      ->type_name("TIME");
-  command->add_flag("--adaptive", arguments->adaptive,
-                    "Take more samples where there is more noise; --spp is their mean");
-  command->add_flag("--layers", arguments->layers,
-                    "Add sample count, variance, error and 95 % interval layers to EXR files");
-  command->add_flag("--features", arguments->features,
-                    "Add depth, normal, albedo and object id of the first hits too (implies --layers)");
-  arguments->tone.add_to(*command);
-  arguments->replay.add_to(*command);
-  command->add_flag("--quiet", arguments->quiet, "Print errors only; with --json, start and done only");
-  command->add_flag("--json", arguments->json, "Print one JSON object a line on stdout: start, progress, done");
-  command->footer(
+  Command command = {.name = "render", .summary = "Render a scene to image files"};
+  const auto add = [&](std::initializer_list<Option> options) {
+    command.options.insert(command.options.end(), options);
+  };
+  arguments->scene.add_to(command);
+  add({{"-o,--output", &arguments->outputs, "FILE",
+        "Image to write: .exr (linear float), .png or .jpg (tone-mapped); may be repeated;\n"
+        "default: the scene's name with .exr, in the current folder"},
+       {"--seed", &arguments->seed, "S", "Seed of the random numbers; default 0", seed_number()}});
+  arguments->machine.add_to(command);
+  add({{"--checkpoint", &arguments->checkpoint, "FILE",
+        "File that keeps the state of the rendering; the same command goes on from it, also with more --spp",
+        file_name()},
+       {"--checkpoint-every", &arguments->checkpoint_every, "TIME", "How often it is written: 90s, 5m, 1h; default 60s",
+        duration()},
+       {"--samples", &arguments->samples, "A:B",
+        "Take the samples A to B-1 of each pixel alone (of --spp in all) and leave them in the checkpoint, for\n"
+        "'norrsken merge'",
+        sample_range()},
+       {"--target-error", &arguments->target_error, "E",
+        "Render until the estimated error of the whole image (RMSE over mean) is at most this: 1%, 0.005;\n"
+        "--spp is the most to take then",
+        share()},
+       {"--time", &arguments->time, "TIME",
+        "Render for so long: 30s, 5m, 1h, without loading and writing; --spp is\nthe most to take then", duration()},
+       {.names = "--adaptive",
+        .target = &arguments->adaptive,
+        .help = "Take more samples where there is more noise; --spp is their mean"},
+       {.names = "--layers",
+        .target = &arguments->layers,
+        .help = "Add sample count, variance, error and 95 % interval layers to EXR files"},
+       {.names = "--features",
+        .target = &arguments->features,
+        .help = "Add depth, normal, albedo and object id of the first hits too (implies --layers)"}});
+  arguments->tone.add_to(command);
+  arguments->replay.add_to(command);
+  add({{.names = "--quiet", .target = &arguments->quiet, .help = "Print errors only; with --json, start and done only"},
+       {.names = "--json",
+        .target = &arguments->json,
+        .help = "Print one JSON object a line on stdout: start, progress, done"}});
+  command.footer =
       "Ctrl-C, SIGTERM or SIGHUP stops the rendering, writes what there is and exits with status 77; a second one\n"
       "before that discards it (not the last checkpoint). SIGUSR1, SIGUSR2, SIGXCPU and SIGALRM, with which batch "
       "systems warn, "
@@ -375,9 +358,9 @@ void add_render_command(CLI::App& app, Action& action) {
       "  norrsken render hexagon_room -Dshadow_rays=1 --time 30s --layers\n"
       "  norrsken render hexagon_room -Dshadow_rays=1 --spp 4096 --checkpoint room.ckpt --checkpoint-every 10m\n"
       "  norrsken render hexagon_room -Dshadow_rays=1 --samples 0:32 --checkpoint a.part\n"
-      "  norrsken render hexagon_room -Dshadow_rays=1 --pixel 400,500 --sample 3 --trace");
-  command->group("Commands");
-  command->callback([&action, arguments] { action = [arguments] { return render(*arguments); }; });
+      "  norrsken render hexagon_room -Dshadow_rays=1 --pixel 400,500 --sample 3 --trace";
+  command.run = [arguments] { return render(*arguments); };
+  return command;
 }
 
 }  // namespace norrsken::cli

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <nlohmann/json.hpp>
+#include <limits>
 
 #include "console.h"
 #include "text_format.h"
@@ -42,27 +42,27 @@ std::string describe_vertex(const PathVertex& v, std::size_t number, bool is_las
   return text + "\n";
 }
 
-nlohmann::ordered_json json_of(const PathVertex& v) {
-  nlohmann::ordered_json object = {
-      {"origin", v.origin}, {"direction", v.direction}, {"throughput", v.throughput}, {"pdf_sa", v.pdf_sa},
-      {"hit", v.hit},       {"emission", v.emission}};
+Json json_of(const PathVertex& v) {
+  Json object = {{"origin", v.origin}, {"direction", v.direction}, {"throughput", v.throughput}, {"pdf_sa", v.pdf_sa},
+                 {"hit", v.hit},       {"emission", v.emission}};
   if (v.hit) {
-    object["distance"] = v.distance;
-    object["position"] = v.position;
-    object["shape"] = v.shape;
-    object["shape_id"] = v.shape_id.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(v.shape_id);
-    object["primitive"] = v.primitive;
-    object["bsdf"] = v.bsdf;
+    object.add("distance", v.distance);
+    object.add("position", v.position);
+    object.add("shape", v.shape);
+    object.add("shape_id", v.shape_id.empty() ? Json() : Json(v.shape_id));
+    object.add("primitive", v.primitive);
+    object.add("bsdf", v.bsdf);
   }
-  object["light_samples"] = nlohmann::ordered_json::array();
+  Json light_samples = Json::array();
   for (const PathVertex::LightSample& light : v.light_samples) {
-    object["light_samples"].push_back({{"bsdf", light.bsdf},
-                                       {"origin", light.origin},
-                                       {"direction", light.direction},
-                                       {"distance", light.distance},
-                                       {"contribution", light.contribution},
-                                       {"reached", light.reached}});
+    light_samples.add({{"bsdf", light.bsdf},
+                       {"origin", light.origin},
+                       {"direction", light.direction},
+                       {"distance", light.distance},
+                       {"contribution", light.contribution},
+                       {"reached", light.reached}});
   }
+  object.add("light_samples", light_samples);
   return object;
 }
 
@@ -87,22 +87,22 @@ std::optional<std::pair<int, int>> parse_pixel(const std::string& text) {
   return std::pair{*x, *y};
 }
 
-void ReplayArguments::add_to(CLI::App& command) {
-  auto* option = command
-                     .add_option("--pixel", pixel,
-                                 "Render one sample of this pixel again, the upper left one being 0,0, and print it "
-                                 "in place of an image")
-                     ->type_name("X,Y");
-  option->check(CLI::Validator(
-      [](const std::string& text) {
-        return parse_pixel(text) ? std::string() : fmt::format("'{}' is not X,Y, as in 12,40", text);
-      },
-      ""));
-  command.add_option("--sample", sample, "Which of the pixel's samples, from 0 (default)")
-      ->needs(option)
-      ->check(whole_number(0, std::numeric_limits<int>::max() - 1))
-      ->type_name("N");
-  command.add_flag("--trace", trace, "Print its path vertex by vertex")->needs(option);
+void ReplayArguments::add_to(Command& command) {
+  const auto is_pixel = [](const std::string& text) {
+    return parse_pixel(text) ? std::string() : fmt::format("'{}' is not X,Y, as in 12,40", text);
+  };
+  command.options.push_back({"--pixel", &pixel, "X,Y",
+                             "Render one sample of this pixel again, the upper left one being 0,0, and print it in "
+                             "place of an image",
+                             is_pixel});
+  command.options.push_back({.names = "--sample",
+                             .target = &sample,
+                             .value = "N",
+                             .help = "Which of the pixel's samples, from 0 (default)",
+                             .check = whole_number(0, std::numeric_limits<int>::max() - 1),
+                             .needs = "--pixel"});
+  command.options.push_back(
+      {.names = "--trace", .target = &trace, .help = "Print its path vertex by vertex", .needs = "--pixel"});
 }
 
 std::string describe_path(const PathTrace& path, bool vertices) {
@@ -118,10 +118,11 @@ ExitStatus replay(const Scene& scene, const RenderOptions& options, const Replay
   print_diagnostics(path.diagnostics());
   if (!path) return ExitStatus::usage;
   if (json) {
-    nlohmann::ordered_json object = {{"x", x}, {"y", y}, {"sample", arguments.sample}, {"radiance", path->radiance}};
+    Json object = {{"x", x}, {"y", y}, {"sample", arguments.sample}, {"radiance", path->radiance}};
     if (arguments.trace) {
-      object["vertices"] = nlohmann::ordered_json::array();
-      for (const PathVertex& v : path->vertices) object["vertices"].push_back(json_of(v));
+      Json vertices = Json::array();
+      for (const PathVertex& v : path->vertices) vertices.add(json_of(v));
+      object.add("vertices", vertices);
     }
     print_json(object);
   } else {

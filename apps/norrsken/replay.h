@@ -18,7 +18,7 @@ struct ReplayArguments {
   int sample = 0;
   bool trace = false;
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
   bool wanted() const { return !pixel.empty(); }
 };
 

@@ -2,10 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <memory>
 
 #include "commands.h"
 #include "console.h"
+#include "norrsken/scene.h"
 
 namespace norrsken::cli {
 namespace {
@@ -25,13 +26,13 @@ ExitStatus list_scenes(bool json) {
 
 }  // namespace
 
-void add_scenes_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes");
+Command scenes_command() {
   auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "One JSON object a line");
-  command->footer("Example:\n  norrsken scenes");
-  command->group("Commands");
-  command->callback([&action, json] { action = [json] { return list_scenes(*json); }; });
+  return {.name = "scenes",
+          .summary = "List the built-in scenes",
+          .options = {{.names = "--json", .target = json.get(), .help = "One JSON object a line"}},
+          .footer = "Example:\n  norrsken scenes",
+          .run = [json] { return list_scenes(*json); }};
 }
 
 }  // namespace norrsken::cli

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -62,10 +61,6 @@ IoStatus write_image(const std::string& path, const Image& image, const ToneMapp
 /// damaged or cut off, more than 2^30 values, or than is left of `memory`, the file and its decoding included; empty:
 /// MemoryBudget::of_machine(). The image itself is its owner's to count.
 Result<Image> read_image(const std::string& path, const std::shared_ptr<MemoryBudget>& memory = {});
-
-/// The same within so many bytes; `image` changes on success only.
-IoStatus read_image(const std::string& path, Image& image,
-                    std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
 
 /// What an EXR or PNG file says about itself before its pixels.
 struct ImageHeader {

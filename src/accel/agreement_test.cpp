@@ -222,11 +222,13 @@ SceneTables tables_of(std::uint32_t triangles, std::uint32_t spheres) {
 
 TEST(ChooseAccel, GoesByWhatTheSceneHolds) {
   Diagnostics diagnostics;
-  const auto automatic = [&](const SceneTables& tables, bool counts_triangles = false) {
-    return choose_accel("auto", tables, 16, counts_triangles, diagnostics);
+  const auto automatic = [&](const SceneTables& tables, const SceneLayers& layers = {}) {
+    return choose_accel("auto", tables, layers, 16, diagnostics);
   };
   EXPECT_EQ(automatic(tables_of(100, 5)), AccelKind::planes);
-  EXPECT_EQ(automatic(tables_of(100, 5), true), AccelKind::bvh);
+  SceneLayers with_triangles;
+  with_triangles.features.push_back({"prim_index.Y", kFeaturePrimitive});
+  EXPECT_EQ(automatic(tables_of(100, 5), with_triangles), AccelKind::bvh);
   EXPECT_EQ(automatic(tables_of(1000, 32)), AccelKind::bvh);
   EXPECT_EQ(automatic(tables_of(1000, 33)), AccelKind::embree);
   SceneTables other = tables_of(1000, 0);
@@ -236,11 +238,11 @@ TEST(ChooseAccel, GoesByWhatTheSceneHolds) {
   other.analytics[0].kind = AnalyticKind::bsplinecurve;
   EXPECT_EQ(automatic(other), AccelKind::embree);
   EXPECT_FALSE(diagnostics.has_errors());
-  EXPECT_EQ(choose_accel("bvh", other, 16, false, diagnostics), AccelKind::embree);
+  EXPECT_EQ(choose_accel("bvh", other, {}, 16, diagnostics), AccelKind::embree);
   SceneTables grouped = tables_of(1000, 0);
   grouped.group_count = 1;
   EXPECT_EQ(automatic(grouped), AccelKind::embree);
-  EXPECT_EQ(choose_accel("bvh", grouped, 16, false, diagnostics), AccelKind::embree);
+  EXPECT_EQ(choose_accel("bvh", grouped, {}, 16, diagnostics), AccelKind::embree);
   ASSERT_EQ(diagnostics.all().size(), 2u);
   EXPECT_EQ(diagnostics.all()[0].message,
             "accelerator 'bvh' knows triangles, spheres, disks and cylinders only, and this scene has curves or grids");

@@ -13,18 +13,18 @@ constexpr float kNowhere = std::numeric_limits<float>::infinity();
 
 /// A user primitive's answer: distance along the ray, infinite if it is not met nearer than `t_max`, and its normal,
 /// of any length.
-struct Met {
+struct UserHit {
   float t = kNowhere;
   isa_host::Vec3f normal{0.0f, 0.0f, 0.0f};
 };
 
 /// A `Primitives` is what the geometry's user data point to, with
 ///   static void bounds_of(const void* data, unsigned primitive, RTCBounds&);
-///   static Met meet(const void* data, unsigned primitive, const Vec3f& origin, const Vec3f& direction, float t_max);
+///   static UserHit intersect(const void* data, unsigned primitive, const Vec3f& origin, const Vec3f& direction, float t_max);
 /// where the direction may have any length.
 template <class Primitives>
-Met meet_ray(const void* data, unsigned primitive, RTCRayN* rays, unsigned n, unsigned i) {
-  return Primitives::meet(
+UserHit intersect_ray(const void* data, unsigned primitive, RTCRayN* rays, unsigned n, unsigned i) {
+  return Primitives::intersect(
       data, primitive, {RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
       {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)}, RTCRayN_tfar(rays, n, i));
 }
@@ -40,7 +40,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
   RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
-    const Met met = meet_ray<Primitives>(args->geometryUserPtr, args->primID, rays, args->N, i);
+    const UserHit met = intersect_ray<Primitives>(args->geometryUserPtr, args->primID, rays, args->N, i);
     if (met.t == kNowhere) continue;
     RTCRayN_tfar(rays, args->N, i) = met.t;
     RTCHitN_Ng_x(hits, args->N, i) = met.normal.x.v;
@@ -56,7 +56,7 @@ template <class Primitives>
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
-    const Met met = meet_ray<Primitives>(args->geometryUserPtr, args->primID, args->ray, args->N, i);
+    const UserHit met = intersect_ray<Primitives>(args->geometryUserPtr, args->primID, args->ray, args->N, i);
     if (met.t == kNowhere) continue;
     RTCRayN_tfar(args->ray, args->N, i) = -kNowhere;
   }

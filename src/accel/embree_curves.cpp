@@ -64,8 +64,8 @@ struct HullsOfBalls {
   ///
   /// The ball around a + s e with radius r + s w touches the hull in x where its equation as a quadratic in s,
   /// g s^2 - 2 h s + |x - a|^2 - r^2 = 0 with g = e^2 - w^2 and h = (x - a) . e + r w, has one solution, s = h / g.
-  static Met meet(const void* data, unsigned segment, const isa_host::Vec3f& origin, const isa_host::Vec3f& direction,
-                  float t_max) {
+  static UserHit intersect(const void* data, unsigned segment, const isa_host::Vec3f& origin,
+                           const isa_host::Vec3f& direction, float t_max) {
     const CurveTable table(*static_cast<const ElementShape*>(data));
     const float* p = table.point(table.first(segment));
     const Ball a = ball(p), b = ball(p + 4);

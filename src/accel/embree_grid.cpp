@@ -82,7 +82,7 @@ struct Voxels {
     bounds.upper_x = upper[0], bounds.upper_y = upper[1], bounds.upper_z = upper[2];
   }
 
-  static Met meet(const void* shape, unsigned element, const Vec3f& o, const Vec3f& d, float t_max) {
+  static UserHit intersect(const void* shape, unsigned element, const Vec3f& o, const Vec3f& d, float t_max) {
     const Grid grid(*static_cast<const ElementShape*>(shape));
     const glm::dmat4 grid_from_world = grid.grid_from_world();
     const glm::dmat3 linear(grid_from_world);

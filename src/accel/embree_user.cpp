@@ -23,7 +23,7 @@ void bounds_of(const SphereRecord& s, RTCBounds& b) {
   b.lower_z = s.center[2] - r, b.upper_z = s.center[2] + r;
 }
 
-Met meet(const SphereRecord& s, const Vec3f& o, const Vec3f& d, float t_max) {
+UserHit intersect(const SphereRecord& s, const Vec3f& o, const Vec3f& d, float t_max) {
   const float length = std::sqrt(dot(d, d).v);
   const isa_host::SphereCrossing c = isa_host::cross_sphere(s.center, s.radius, o, d * isa_host::Float(1 / length));
   const float t = (c.t0.v > 0.0f ? c.t0.v : c.t1.v) / length;
@@ -48,7 +48,7 @@ void bounds_of(const AnalyticRecord& a, RTCBounds& b) {
 }
 
 template <class Model>
-Met meet_in_place(const AnalyticRecord& a, const Vec3f& o, const Vec3f& d, float t_max) {
+UserHit intersect_in_place(const AnalyticRecord& a, const Vec3f& o, const Vec3f& d, float t_max) {
   if constexpr (isa_host::kHasElements<Model>) {
     return {};  // src/accel/embree_elements.cpp has those
   } else {
@@ -63,11 +63,11 @@ Met meet_in_place(const AnalyticRecord& a, const Vec3f& o, const Vec3f& d, float
   }
 }
 
-Met meet(const AnalyticRecord& a, const Vec3f& o, const Vec3f& d, float t_max) {
+UserHit intersect(const AnalyticRecord& a, const Vec3f& o, const Vec3f& d, float t_max) {
   switch (a.kind) {
 #define NORRSKEN_ANALYTIC(kind, Model) \
   case AnalyticKind::kind:             \
-    return meet_in_place<isa_host::Model>(a, o, d, t_max);
+    return intersect_in_place<isa_host::Model>(a, o, d, t_max);
 #include "lists/analytic_shape.def"
 #undef NORRSKEN_ANALYTIC
     case AnalyticKind::count:
@@ -81,8 +81,8 @@ struct Records {
   static void bounds_of(const void* records, unsigned i, RTCBounds& b) {
     norrsken::bounds_of(static_cast<const Record*>(records)[i], b);
   }
-  static Met meet(const void* records, unsigned i, const Vec3f& o, const Vec3f& d, float t_max) {
-    return norrsken::meet(static_cast<const Record*>(records)[i], o, d, t_max);
+  static UserHit intersect(const void* records, unsigned i, const Vec3f& o, const Vec3f& d, float t_max) {
+    return norrsken::intersect(static_cast<const Record*>(records)[i], o, d, t_max);
   }
 };
 

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 
+#include "base/file_signature.h"
 #include "base/text.h"
 #include "formats/mesh_readers.h"
 
@@ -20,52 +21,26 @@ using namespace std::string_view_literals;
 
 constexpr std::string_view kByBlender =
     "a scene of Mitsuba's XML; Blender's add-on mitsuba-blender writes one (File, Export, Mitsuba)";
-constexpr std::string_view kImage =
-    "a scene; images are a part of it as <texture type=\"bitmap\"> or <emitter type=\"envmap\">";
-constexpr std::string_view kUnpacked = "the file that is packed in it; unpack it first";
 
-struct Signature {
-  std::string_view start, what, accepted;
-};
-constexpr Signature kSignatures[] = {
-    {"\x76\x2f\x31\x01"sv, "an OpenEXR image", kImage},
-    {"\x89PNG"sv, "a PNG image", kImage},
-    {"\xff\xd8\xff"sv, "a JPEG image", kImage},
-    {"#?RADIANCE"sv, "a Radiance HDR image", kImage},
-    {"#?RGBE"sv, "a Radiance HDR image", kImage},
-    {"II*\0"sv, "a TIFF image", kImage},
-    {"MM\0*"sv, "a TIFF image", kImage},
-    {"PF\n"sv, "a PFM image", kImage},
-    {"Pf\n"sv, "a PFM image", kImage},
-    {"P1\n"sv, "a PBM image", kImage},
-    {"P2\n"sv, "a PGM image", kImage},
-    {"P3\n"sv, "a PPM image", kImage},
-    {"P4\n"sv, "a PBM image", kImage},
-    {"P5\n"sv, "a PGM image", kImage},
-    {"P6\n"sv, "a PPM image", kImage},
-    {"GIF8"sv, "a GIF image", kImage},
-    {"8BPS"sv, "a Photoshop image", kImage},
-    {"DDS "sv, "a DDS image", kImage},
-    {"VOL\x03"sv, "a volume", "a scene; volumes are a part of it as <volume type=\"gridvolume\">"},
-    {" BDV"sv, "a volume (OpenVDB)", "a scene"},
-    {"BLENDER"sv, "a Blender file", kByBlender},
-    {"\x28\xb5\x2f\xfd"sv, "a packed file (Zstandard), such as Blender's", kByBlender},
-    {"\x1f\x8b"sv, "a packed file (gzip)", kUnpacked},
-    {"PK\x03\x04"sv, "a packed file (ZIP)", kUnpacked},
-    {"7z\xbc\xaf"sv, "a packed file (7-Zip)", kUnpacked},
-    {"Rar!"sv, "a packed file (RAR)", kUnpacked},
-    {"BZh"sv, "a packed file (bzip2)", kUnpacked},
-    {"\xfd\x37zXZ"sv, "a packed file (xz)", kUnpacked},
-    {"glTF"sv, "a glTF scene", kByBlender},
-    {"PXR-USDC"sv, "a USD scene", kByBlender},
-    {"#usda"sv, "a USD scene", kByBlender},
-    {"Kaydara FBX"sv, "an FBX scene", kByBlender},
-    {"; FBX "sv, "an FBX scene", kByBlender},
-    {"Ogawa"sv, "an Alembic scene", kByBlender},
-    {"\x89HDF"sv, "an HDF file, such as older ones of Alembic", kByBlender},
-    {"\x89Norrsk\n"sv, "a checkpoint of this program", "a scene; 'norrsken merge' makes an image of a checkpoint"},
-    {"%PDF"sv, "a PDF document", "a scene"},
-};
+// What to give in its place.
+std::string_view accepted_instead_of(FileKind kind) {
+  switch (kind) {
+    case FileKind::read_image:
+    case FileKind::other_image:
+      return "a scene; images are a part of it as <texture type=\"bitmap\"> or <emitter type=\"envmap\">";
+    case FileKind::volume:
+      return "a scene; volumes are a part of it as <volume type=\"gridvolume\">";
+    case FileKind::scene:
+      return kByBlender;
+    case FileKind::packed:
+      return "the file that is packed in it; unpack it first";
+    case FileKind::checkpoint:
+      return "a scene; 'norrsken merge' makes an image of a checkpoint";
+    case FileKind::other:
+      break;
+  }
+  return "a scene";
+}
 
 bool has_extension(std::string_view path, std::string_view extension) {
   return path.size() > extension.size() && equal_ignoring_case(path.substr(path.size() - extension.size()), extension);
@@ -221,9 +196,8 @@ std::optional<OtherFile> recognise_other_file(const std::string& path, std::stri
                      std::string(accepted)};
   };
   if (has_extension(path, ".usdz")) return is("a USD scene", kByBlender);
-  for (const Signature& signature : kSignatures) {
-    if (bytes.starts_with(signature.start)) return is(signature.what, signature.accepted);
-  }
+  if (const FileSignature* signature = file_signature(bytes))
+    return is(signature->what, accepted_instead_of(signature->kind));
   Diagnostics unheard;  // of a mesh that is damaged; whoever names it in a scene will hear of that
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r"))
     return is("a PLY mesh", scene_around(path, "ply", read_ply(bytes, path, unheard)));
@@ -246,9 +220,9 @@ std::optional<OtherFile> recognise_other_file(const std::string& path, std::stri
   }
   if (has_extension(path, ".stl") || is_binary_stl(bytes) || text.starts_with("solid "))
     return is("an STL mesh", "a scene; save the mesh as PLY or OBJ for it");
-  if (bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP") return is("a WebP image", kImage);
-  if (bytes.starts_with("BM") && has_extension(path, ".bmp")) return is("a BMP image", kImage);
-  if (has_extension(path, ".tga")) return is("a TGA image", kImage);
+  if (bytes.starts_with("BM") && has_extension(path, ".bmp"))
+    return is("a BMP image", accepted_instead_of(FileKind::read_image));
+  if (has_extension(path, ".tga")) return is("a TGA image", accepted_instead_of(FileKind::read_image));
   if (is_binary(bytes)) return is("a file of binary data", "a scene of Mitsuba's XML");
   if (contains(bytes.substr(0, 4096), "\0"sv) || bytes.starts_with("\xFE\xFF") || bytes.starts_with("\xFF\xFE"))
     return std::nullopt;  // XML in another encoding

@@ -316,9 +316,9 @@ TEST(Targa, OnlyItsOwnHeadersAreTakenForIt) {
 TEST(RasterImage, BecomesChannelsOfLinearColourAndTexelsWithoutAlpha) {
   const TemporaryFolder folder;
   const std::string contents = TgaFile{.bits = 32, .pixels = "\3\2\1\x33\6\5\4\xff"}.text();
-  Image image;
-  const std::string path = folder.write("a.tga", contents);
-  ASSERT_EQ(read_image(path, image).error, "");
+  const Result<Image> read = read_image(folder.write("a.tga", contents));
+  ASSERT_TRUE(read) << read.error();
+  const Image& image = *read;
   EXPECT_EQ(image.width, 2);
   EXPECT_EQ(image.height, 1);
   ASSERT_NE(image.find("A"), nullptr);

@@ -15,6 +15,8 @@
 namespace norrsken {
 namespace {
 
+using namespace std::string_view_literals;
+
 /// The bytes of a file that `write` makes.
 template <class Write>
 std::string bytes_of(const std::string& name, const Write& write) {
@@ -154,12 +156,18 @@ TEST(TexelImage, BadFilesAreRefused) {
   EXPECT_EQ(read_texels("no image", image), "unknown or damaged image file");
   EXPECT_EQ(read_texels("", image), "it is empty");
   EXPECT_EQ(read_texels("x", image), "unknown or damaged image file");
-  EXPECT_EQ(read_texels("RIFF....WEBPVP8 ", image), "it is a WebP file, which is not read");
-  for (const std::string_view start :
-       {"GIF89a", "8BPS", "DDS ", "....jP  ", "....ftypheic", "....ftypavif", "P7\n", "....JXL ", "\xff\x0a"}) {
+  EXPECT_EQ(read_texels("RIFF....WEBPVP8 ", image), "it is a WebP image, which is not read");
+  for (const std::string_view start : {"GIF89a"sv, "8BPS"sv, "DDS "sv, "\0\0\0\x0cjP  "sv,
+                                       "\0\0\0\x18"
+                                       "ftypheic"sv,
+                                       "\0\0\0\x1c"
+                                       "ftypavif"sv,
+                                       "P7\n"sv, "\0\0\0\x0cJXL "sv, "\xff\x0a"sv}) {
     const std::string error = read_texels(std::string(start) + std::string(20, '.'), image);
-    EXPECT_TRUE(error.starts_with("it is a ") && error.ends_with(" file, which is not read")) << start << ": " << error;
+    EXPECT_TRUE(error.starts_with("it is a ") && error.ends_with(" image, which is not read"))
+        << start << ": " << error;
   }
+  EXPECT_EQ(read_texels("PK\3\4", image), "it is a packed file (ZIP), which is not read");
   EXPECT_EQ(read_texels("version https://git-lfs.github.com/spec/v1\n", image),
             "it is a pointer of Git LFS in place of the image");
   EXPECT_EQ(read_texels("\x76\x2f\x31\x01\x02", image), "it is a damaged EXR file, or of a kind that is not read");
@@ -167,7 +175,7 @@ TEST(TexelImage, BadFilesAreRefused) {
   Image planes;
   EXPECT_EQ(
       read_image_contents("GIF89a", 1 << 20, planes),
-      "it is a GIF file, which is not read; accepted are EXR, PNG, JPEG, HDR, PFM, PPM, PGM, PBM, BMP, TGA and TIFF");
+      "it is a GIF image, which is not read; accepted are EXR, PNG, JPEG, HDR, PFM, PPM, PGM, PBM, BMP, TGA and TIFF");
 }
 
 /// Of what is written, no part is enough.

@@ -6,9 +6,9 @@
 
 #include "film/film.h"
 #include "film/section_file.h"
-#include "render/crew.h"
 #include "render/provenance.h"
 #include "render/traits.h"
+#include "render/worker_pool.h"
 
 namespace norrsken {
 

@@ -7,10 +7,10 @@
 
 #include "compile/compile.h"
 #include "isa/entry.h"
-#include "render/crew.h"
 #include "render/scene_state.h"
 #include "render/scene_view.h"
 #include "render/wave_arena.h"
+#include "render/worker_pool.h"
 
 namespace norrsken {
 namespace {
@@ -141,7 +141,7 @@ Result<PathTrace> trace_path(const Scene& scene, const RenderOptions& options, i
   const SceneFrame& frame = scene.frame();
   const KernelEntry* kernels = choose_kernels(options.isa, diagnostics);
   const AccelKind accel_kind =
-      choose_accel(options.accelerator, tables, kernels != nullptr ? kernels->lanes : 1, false, diagnostics);
+      choose_accel(options.accelerator, tables, frame.layers, kernels != nullptr ? kernels->lanes : 1, diagnostics);
   if (x < 0 || y < 0 || x >= frame.film.width || y >= frame.film.height) {
     diagnostics.error({}, fmt::format("there is no pixel {}, {}", x, y),
                       fmt::format("0, 0 to {}, {}", frame.film.width - 1, frame.film.height - 1));
@@ -152,7 +152,7 @@ Result<PathTrace> trace_path(const Scene& scene, const RenderOptions& options, i
   }
   if (diagnostics.has_errors()) return diagnostics;
 
-  const auto accel = scene.state().accel(accel_kind, frame.layers, crew_size(options.threads), diagnostics);
+  const auto accel = scene.state().accel(accel_kind, frame.layers, worker_count(options.threads), diagnostics);
   if (!accel) return diagnostics;
   SceneView view = scene.state().view(frame, accel->view());
   view.sampler.seed += options.seed;

@@ -1,11 +1,8 @@
 #include "norrsken/render.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <limits>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -15,21 +12,18 @@
 #include "film/section_file.h"
 #include "isa/entry.h"
 #include "render/checkpoint_file.h"
-#include "render/crew.h"
 #include "render/frame_memory.h"
 #include "render/provenance.h"
+#include "render/request.h"
 #include "render/scene_state.h"
 #include "render/scene_view.h"
+#include "render/worker_pool.h"
 #include "scene/within_memory.h"
 
 namespace norrsken {
 namespace {
 
-constexpr std::uint32_t kFeatureSamples = 16;
-/// Of scenes that name layers, where nobody knows how many samples the image will have.
-constexpr std::uint32_t kOpenFeatureSamples = 64;
 constexpr double kProgressSeconds = 0.1;
-constexpr std::uint32_t kMostSamples = std::numeric_limits<int>::max();
 
 class Stopwatch {
  public:
@@ -52,48 +46,9 @@ class Temporarily {
   bool before_;
 };
 
-FilmSettings film_settings(const Scene& scene) {
-  FilmSettings film = scene.frame().film;
-  film.opaque = scene.tables().tables.environment != kNone && !scene.frame().integrator.hide_emitters;
-  return film;
-}
-
-SceneLayers layers(const Scene& scene, const RenderOptions& options) {
-  SceneLayers layers = scene.frame().layers;
-  if (options.features) {
-    for (FeatureLayer& layer : standard_features()) layers.features.push_back(std::move(layer));
-  }
-  return layers;
-}
-
-bool needs_all_features(const Scene& scene) {
-  return !scene.frame().layers.features.empty() || scene.frame().film.has_alpha();
-}
-
-/// The samples that are asked for, by the scene if nobody else does.
-SampleRange sample_range(const Scene& scene, const RenderOptions& options) {
-  if (options.samples) return *options.samples;
-  const auto count = options.samples_per_pixel.value_or(static_cast<int>(scene.frame().sampler.samples_per_pixel));
-  return {0, static_cast<std::uint32_t>(count)};
-}
-
-/// Scenes that name layers get them of as many samples as the image, others of the first few of all.
-SampleRange feature_range(const Scene& scene, const RenderOptions& options, SampleRange samples) {
-  if (needs_all_features(scene)) {
-    return is_open(options) ? SampleRange{samples.first, samples.first + kOpenFeatureSamples} : samples;
-  }
-  if (!options.features) return {};
-  return {std::min(samples.first, kFeatureSamples), std::min(samples.end, kFeatureSamples)};
-}
-
-SampleSchedule make_schedule(SampleRange samples, const RenderOptions& options) {
-  const bool is_bounded = options.samples_per_pixel || !is_open(options);
-  return SampleSchedule(options, is_bounded ? samples.count() : kMostSamples);
-}
-
 Work make_work(const SceneView& view, const Film& film, const SampleSchedule& schedule, SampleRange samples,
                SampleRange feature_samples) {
-  const TileGrid grid = Crew::grid(view, film.width(), film.height());
+  const TileGrid grid = WorkerPool::grid(view, film.width(), film.height());
   const TileProgress none(grid.tile_count());
   Work work{grid, samples, feature_samples, {}, none, feature_samples.count() > 0 ? none : TileProgress{}, {}};
   work.set_goal(schedule.first(grid));
@@ -101,24 +56,25 @@ Work make_work(const SceneView& view, const Film& film, const SampleSchedule& sc
 }
 
 /// Tells when every pixel has more than before.
-class PassTeller {
+class PassNotifier {
  public:
-  PassTeller(std::function<void(const RenderPass&)> tell, Crew& crew, const std::atomic<bool>& has_features)
-      : tell_(std::move(tell)), crew_(crew), has_features_(has_features), told_{0, has_features} {}
+  PassNotifier(std::function<void(const RenderPass&)> notify, WorkerPool& workers,
+               const std::atomic<bool>& has_features)
+      : notify_(std::move(notify)), workers_(workers), has_features_(has_features), last_{0, has_features} {}
 
   void look() {
-    if (!tell_) return;
-    const RenderPass now{crew_.least_samples(), has_features_};
-    if (now.samples <= told_.samples && now.has_layers == told_.has_layers) return;
-    told_ = now;
-    tell_(now);
+    if (!notify_) return;
+    const RenderPass now{workers_.least_samples(), has_features_};
+    if (now.samples <= last_.samples && now.has_layers == last_.has_layers) return;
+    last_ = now;
+    notify_(now);
   }
 
  private:
-  std::function<void(const RenderPass&)> tell_;
-  Crew& crew_;
+  std::function<void(const RenderPass&)> notify_;
+  WorkerPool& workers_;
   const std::atomic<bool>& has_features_;
-  RenderPass told_;
+  RenderPass last_;
 };
 
 class RenderSession final : public Render {
@@ -130,7 +86,7 @@ class RenderSession final : public Render {
         memory_(std::move(frame)),
         accel_(std::move(accel)),
         view_(scene_.state().view(scene_.frame(), accel_->view())),
-        threads_(crew_size(options.threads)),
+        threads_(worker_count(options.threads)),
         film_(film_settings(scene_), view_.sampler.kind, layers(scene_, options)),
         schedule_(make_schedule(sample_range(scene_, options), options)),
         work_(make_work(view_, film_, schedule_, sample_range(scene_, options),
@@ -156,27 +112,27 @@ class RenderSession final : public Render {
 
   RenderStatistics run(const RenderCallbacks& callbacks) override {
     const auto& on_progress = callbacks.on_progress;
-    Crew& crew = start_crew();
-    const std::uint64_t resumed = crew.samples_done();
+    WorkerPool& workers = start_workers();
+    const std::uint64_t resumed = workers.samples_done();
     Stopwatch watch;
-    const auto progress = [&] { return progress_of(crew, resumed, watch.seconds()); };
-    const auto tell = [&] {
+    const auto progress = [&] { return progress_of(workers, resumed, watch.seconds()); };
+    const auto notify = [&] {
       if (on_progress) on_progress(progress());
     };
-    PassTeller passes(callbacks.on_pass, crew, has_features_);
+    PassNotifier passes(callbacks.on_pass, workers, has_features_);
     bool is_complete = false;
     while (!is_complete && failure_.empty() && !cancelled_.load(std::memory_order_relaxed)) {
-      reach_goal(crew, watch, tell, passes);
+      reach_goal(workers, watch, notify, passes);
       const double seconds = watch.seconds();
       is_complete = has_features_ && work_.has_first_samples() && schedule_.is_over(seconds);
       if (!work_.done() || is_complete) continue;
-      const double taken = static_cast<double>(crew.samples_done() - resumed) / pixels();
+      const double taken = static_cast<double>(workers.samples_done() - resumed) / pixels();
       std::optional<SampleGoal> next = schedule_.next(work_.grid, film_, work_.goal, seconds, taken);
       is_complete = !next;
       if (next) work_.set_goal(*std::move(next));
     }
 
-    RenderStatistics s = crew.statistics();
+    RenderStatistics s = workers.statistics();
     s.samples_resumed = resumed;
     s.seconds = watch.seconds();
     s.failure = failure_;
@@ -192,7 +148,7 @@ class RenderSession final : public Render {
     if (!checkpoint_) made_.seconds = seconds_before_ + s.seconds;
     passes.look();
     RenderProgress last = progress();
-    end_crew(metadata_of(
+    end_workers(metadata_of(
         made_, {static_cast<double>(s.samples) / pixels(), ranges_, s.error, s.dropped_samples, !is_complete}));
     if (on_progress) {
       last.elapsed_seconds = s.seconds;
@@ -210,13 +166,13 @@ class RenderSession final : public Render {
     FilmImage image(film_, region_of(region), statistics, has_features_ ? work_.feature_samples.count() : 0);
     Metadata metadata;
     {
-      const std::lock_guard lock(crew_mutex_);
-      if (crew_) {
-        crew_->look_at(image.needed(), [&](const FilmRegion& part) { image.take(part); });
+      const std::lock_guard lock(workers_mutex_);
+      if (workers_) {
+        workers_->look_at(image.needed(), [&](const FilmRegion& part) { image.take(part); });
       } else {
         image.take(image.needed());
       }
-      metadata = crew_ ? metadata_so_far() : metadata_;
+      metadata = workers_ ? metadata_so_far() : metadata_;
     }
     Image result = std::move(image).finish();
     result.metadata = std::move(metadata);
@@ -243,26 +199,26 @@ class RenderSession final : public Render {
             static_cast<std::uint32_t>(y1 - y0)};
   }
 
-  Crew& start_crew() {
-    const std::lock_guard lock(crew_mutex_);
-    crew_ = std::make_unique<Crew>(view_, kernels_, film_, work_, threads_, cancelled_);
-    return *crew_;
+  WorkerPool& start_workers() {
+    const std::lock_guard lock(workers_mutex_);
+    workers_ = std::make_unique<WorkerPool>(view_, kernels_, film_, work_, threads_, cancelled_);
+    return *workers_;
   }
   /// From then on nobody writes to the film.
-  void end_crew(Metadata metadata) {
-    const std::lock_guard lock(crew_mutex_);
-    crew_.reset();
+  void end_workers(Metadata metadata) {
+    const std::lock_guard lock(workers_mutex_);
+    workers_.reset();
     metadata_ = std::move(metadata);
   }
 
   /// Of an image that is taken while it is rendered.
   Metadata metadata_so_far() const {
-    const double samples = static_cast<double>(crew_->samples_done()) / pixels();
+    const double samples = static_cast<double>(workers_->samples_done()) / pixels();
     return metadata_of({made_.settings, seconds_now_}, {samples, ranges_, {}, 0, true});
   }
 
-  /// Until the goal is reached, the rendering is cancelled or time is up. `tell` is called now and then.
-  void reach_goal(Crew& crew, Stopwatch& watch, const std::function<void()>& tell, PassTeller& passes) {
+  /// Until the goal is reached, the rendering is cancelled or time is up. `notify` is called now and then.
+  void reach_goal(WorkerPool& workers, Stopwatch& watch, const std::function<void()>& notify, PassNotifier& passes) {
     Stopwatch since_progress;
     has_features_ = work_.features_done();
     // Without a sample of every pixel there is no image to stop at.
@@ -274,42 +230,42 @@ class RenderSession final : public Render {
     while (!work_.done() && goes_on()) {
       const Stopwatch since_save;
       // Whoever looks at the film takes no samples, though its workers do.
-      const Crew::Tick tick{tick_interval(), [&] {
-                              const Temporarily looking(is_sampling_, false);
-                              if (since_progress.seconds() >= kProgressSeconds) {
-                                since_progress = {};
-                                tell();
-                              }
-                              passes.look();
-                              seconds_now_ = seconds_before_ + watch.seconds();
-                              return goes_on() && (!checkpoint_ || since_save.seconds() < checkpoint_seconds_);
-                            }};
+      const WorkerPool::Tick tick{tick_interval(), [&] {
+                                    const Temporarily looking(is_sampling_, false);
+                                    if (since_progress.seconds() >= kProgressSeconds) {
+                                      since_progress = {};
+                                      notify();
+                                    }
+                                    passes.look();
+                                    seconds_now_ = seconds_before_ + watch.seconds();
+                                    return goes_on() && (!checkpoint_ || since_save.seconds() < checkpoint_seconds_);
+                                  }};
       if (!has_features_) {
         const Temporarily sampling(is_sampling_, true);
-        if (!crew.run_features(tick)) return give_up();
+        if (!workers.run_features(tick)) return fail();
         has_features_ = work_.features_done();
         watch = {};  // figures, and the time that there is, are those of the image, not of its layers
       }
       if (has_features_) {
         const Temporarily sampling(is_sampling_, true);
-        if (!crew.run(tick)) return give_up();
+        if (!workers.run(tick)) return fail();
       }
       made_.seconds = seconds_before_ + watch.seconds();
       save();
     }
   }
 
-  void give_up() { failure_ = "the system starts no more threads"; }
+  void fail() { failure_ = "the system starts no more threads"; }
 
-  RenderProgress progress_of(Crew& crew, std::uint64_t resumed, double seconds) const {
+  RenderProgress progress_of(WorkerPool& workers, std::uint64_t resumed, double seconds) const {
     RenderProgress p;
-    p.samples_done = crew.samples_done();
+    p.samples_done = workers.samples_done();
     p.samples_total = work_.goal.total(work_.grid);
     p.samples_resumed = resumed;
     p.elapsed_seconds = seconds;
     const double taken = static_cast<double>(p.samples_done - resumed);
     p.samples_per_second = taken / std::max(seconds, 1e-9);
-    p.error = crew.relative_error();
+    p.error = workers.relative_error();
     const Outlook outlook = schedule_.outlook(has_features_ ? seconds : 0, p.error,
                                               static_cast<double>(p.samples_done) / pixels(), taken / pixels());
     p.fraction = std::min(outlook.fraction, 0.99);  // only the last report says that all is done
@@ -340,8 +296,8 @@ class RenderSession final : public Render {
   double seconds_before_ = 0;           ///< that the checkpoint's samples took
   std::atomic<double> seconds_now_{0};  ///< that the samples took
   std::vector<SampleRange> ranges_;
-  mutable std::mutex crew_mutex_;  ///< for what follows, of the threads that look
-  std::unique_ptr<Crew> crew_;     ///< while there is one at work
+  mutable std::mutex workers_mutex_;     ///< for what follows, of the threads that look
+  std::unique_ptr<WorkerPool> workers_;  ///< while there is one at work
   Metadata metadata_;
   std::atomic<bool> cancelled_{false}, is_sampling_{false};
 };
@@ -355,42 +311,14 @@ std::vector<std::string> checkpoint_files(const std::string& path) { return file
 Result<std::unique_ptr<Render>> Render::create(const Scene& scene, const RenderOptions& options) {
   Diagnostics diagnostics(options.log);
   const KernelEntry* kernels = choose_kernels(options.isa, diagnostics);
-  if (options.samples_per_pixel && *options.samples_per_pixel < 1) {
-    diagnostics.error({}, "samples per pixel is " + std::to_string(*options.samples_per_pixel),
-                      "an integer from 1 to " + std::to_string(std::numeric_limits<int>::max()));
-  }
-  if (options.threads < 0 || options.threads > kMaxThreads) {
-    diagnostics.error({}, "number of threads is " + std::to_string(options.threads),
-                      "0 (one per hardware thread) to " + std::to_string(kMaxThreads));
-  }
-  if (!(options.target_error >= 0 && options.target_error < 1)) {
-    diagnostics.error({}, fmt::format("target error is {}", options.target_error), "more than 0 and less than 1");
-  }
-  if (!(options.seconds >= 0)) diagnostics.error({}, fmt::format("time is {} s", options.seconds), "more than 0");
-  if (goes_by_steps(options) && options.samples) {
-    diagnostics.error({}, "samples of a range are taken all",
-                      "no range, or neither an error, nor a time, nor adaptivity");
-  }
-  if (options.adaptive && scene.frame().integrator.from_lights) {
-    diagnostics.error({}, "adaptive sampling with paths that begin at the lights", "another integrator than ptracer");
-  }
-  // Planes hold polygons, which do not know the triangles that they were merged from.
-  const bool counts_triangles = variation_of(scene.frame().layers) == Variation::by_triangle;
-  const AccelKind accel = choose_accel(options.accelerator, scene.tables().tables,
-                                       kernels != nullptr ? kernels->lanes : 1, counts_triangles, diagnostics);
-  if (options.samples && options.samples->first >= options.samples->end) {
-    diagnostics.error({}, fmt::format("samples {} to {}", options.samples->first, options.samples->end),
-                      "a first sample, and a greater one behind the last");
-  }
-  if (options.samples && options.samples->end > kMostSamples) {
-    diagnostics.error({}, fmt::format("samples end at {}", options.samples->end),
-                      fmt::format("up to {}", kMostSamples));
-  }
+  check_options(scene, options, diagnostics);
+  const AccelKind accel = choose_accel(options.accelerator, scene.tables().tables, scene.frame().layers,
+                                       kernels != nullptr ? kernels->lanes : 1, diagnostics);
   if (diagnostics.has_errors()) return diagnostics;
   auto memory = reserve_frame(scene.tables(), scene.frame(), film_settings(scene), layers(scene, options),
-                              crew_size(options.threads), diagnostics);
+                              worker_count(options.threads), diagnostics);
   auto built =
-      memory ? scene.state().accel(accel, scene.frame().layers, crew_size(options.threads), diagnostics) : nullptr;
+      memory ? scene.state().accel(accel, scene.frame().layers, worker_count(options.threads), diagnostics) : nullptr;
   if (!built) return diagnostics;
   std::unique_ptr<RenderSession> session;
   try {

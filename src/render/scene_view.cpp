@@ -88,8 +88,10 @@ bool is_too_far_for_planes(const SceneTables& tables) {
 
 }  // namespace
 
-AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes, bool counts_triangles,
-                       Diagnostics& diagnostics) {
+AccelKind choose_accel(const std::string& name, const SceneTables& tables, const SceneLayers& layers,
+                       std::uint32_t lanes, Diagnostics& diagnostics) {
+  // Planes hold polygons, which do not know the triangles that they were merged from.
+  const bool counts_triangles = variation_of(layers) == Variation::by_triangle;
   const std::size_t primitives = tables.surfaces.size();
   const bool polygons_and_spheres = tables.analytics.empty() && tables.group_count == 0;
   const std::size_t beside_triangles = primitives - tables.triangle_count();

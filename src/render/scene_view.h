@@ -16,10 +16,10 @@ namespace norrsken {
 const KernelEntry* choose_kernels(const std::string& isa, Diagnostics& diagnostics);
 
 /// The accelerator by name ("auto", "planes", "moller_trumbore", "bvh", "embree"); "auto" goes by the number of primitives
-/// and lanes, and takes none that knows only polygons if `counts_triangles`. Complains about unknown names, planes for a
+/// and lanes, and takes none that knows only polygons if `layers` count the triangles. Complains about unknown names, planes for a
 /// large scene, and about what does not know the scene's shapes, and falls back to auto's choice.
-AccelKind choose_accel(const std::string& name, const SceneTables& tables, std::uint32_t lanes, bool counts_triangles,
-                       Diagnostics& diagnostics);
+AccelKind choose_accel(const std::string& name, const SceneTables& tables, const SceneLayers& layers,
+                       std::uint32_t lanes, Diagnostics& diagnostics);
 const char* accel_name(AccelKind kind);
 
 /// In the frame that the scene was loaded with. Borrows from both arguments, which must outlive it.

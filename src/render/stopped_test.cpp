@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "isa/kernel_testing.h"
-#include "render/crew.h"
-#include "render/schedule.h"
+#include "render/sample_schedule.h"
+#include "render/worker_pool.h"
 
 namespace norrsken {
 namespace {
@@ -33,7 +33,7 @@ class Rendering {
   Rendering(const ViewedScene& viewed, std::uint64_t seed)
       : view_(viewed.view),
         film_(viewed.scene.tables().tables.film, view_.sampler.kind),
-        work_{Crew::grid(view_, kSize, kSize), {0, 1}, {}, {}, {}, {}, {}} {
+        work_{WorkerPool::grid(view_, kSize, kSize), {0, 1}, {}, {}, {}, {}, {}} {
     view_.sampler.seed += seed;
     work_.progress.resize(work_.grid.tile_count());
     if (view_.integrator.from_lights) film_.add_splats(Splats(view_.film, viewed.scene.tables().tables.filter));
@@ -48,9 +48,9 @@ class Rendering {
       now.of_tile = after_waves(*goal, waves);
       work_.set_goal(now);
       std::atomic<bool> cancelled{false};
-      Crew(view_, *wide_kernels().front(), film_, work_, 2, cancelled).run({std::chrono::seconds(1), [] {
-                                                                              return true;
-                                                                            }});
+      WorkerPool(view_, *wide_kernels().front(), film_, work_, 2, cancelled).run({std::chrono::seconds(1), [] {
+                                                                                    return true;
+                                                                                  }});
       EXPECT_TRUE(work_.done());
       goal = schedule.next(work_.grid, film_, *goal, 0, 0);
     }

@@ -20,7 +20,7 @@ const Case kCases[] = {{1, 1, {0, 1}, 1024},    {1, 1, {0, 1000}, 1024},      {1
                        {64, 64, {0, 5}, 512},   {40, 40, {7, 27}, kMaxLanes}, {200, 150, {0, 17}, 1024},
                        {2, 2, {3, 9}, 1024}};
 
-/// Takes what is left of the samples, as the crew does, and counts what comes to each pixel. Stops after `most` waves.
+/// Takes what is left of the samples, as the workers do, and counts what comes to each pixel. Stops after `most` waves.
 class Film {
  public:
   Film(const TileGrid& grid, std::uint32_t first)

@@ -12,8 +12,9 @@
 #include <random>
 
 #include "norrsken/image.h"
-#include "process_testing.h"
+#include "tests/process.h"
 #include "tests/temporary_folder.h"
+#include "tests/told.h"
 
 namespace norrsken::cli {
 namespace {
@@ -48,12 +49,7 @@ class KillTest : public testing::Test {
     options.folder = folder_.string();
     return run_program(arguments, options);
   }
-  Image image() const {
-    Image image;
-    const IoStatus status = read_image(folder_.file("a.exr"), image);
-    EXPECT_EQ(status.error, "");
-    return image;
-  }
+  Image image() const { return value_of(read_image(folder_.file("a.exr"))); }
   /// Of the last line that the program wrote.
   static nlohmann::json last_event(const ProcessResult& result) {
     const std::size_t end = result.out.find_last_not_of('\n'), begin = result.out.rfind('\n', end);

@@ -118,10 +118,7 @@ class HostileFile : public SceneFolder, public ::testing::WithParamInterface<std
       MergedRender merged;
       return {merge_renders({file}).error(), true};
     }
-    if (kind == "compared") {
-      Image image;
-      return {read_image(file, image).error, true};
-    }
+    if (kind == "compared") return {read_image(file).error(), true};
     if (kind == "checkpoint") {
       Diagnostics diagnostics;
       RenderOptions options;

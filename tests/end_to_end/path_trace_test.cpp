@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <set>
 
 #include "tests/end_to_end/rendering.h"
+#include "tests/end_to_end/scene_folder.h"
 #include "tests/told.h"
 
 namespace norrsken::end_to_end {
@@ -85,6 +88,25 @@ TEST(TracedPathBsdf, TellsWhatStandsBehindABlend) {
   EXPECT_TRUE(v.bsdf == "blendbsdf > diffuse" || v.bsdf == "blendbsdf > roughconductor") << v.bsdf;
   ASSERT_EQ(v.light_samples.size(), 2u);
   EXPECT_NE(v.light_samples[0].bsdf, v.light_samples[1].bsdf);
+}
+
+class TracedPathPrimitive : public SceneFolder {};
+
+TEST_F(TracedPathPrimitive, IsTheTriangleThatALayerCounts) {
+  // Two triangles in one plane, which count as one where nobody asks.
+  const Scene scene = load_elements(R"(<integrator type="aov"><string name="aovs" value="i:prim_index"/>
+                                         <integrator type="path"/></integrator>)" +
+                                    camera(8) + R"(<shape type="rectangle"/><emitter type="constant"/>)");
+  std::set<std::uint32_t> met;
+  for (int x = 0; x < 8; ++x) {
+    for (int y = 0; y < 8; ++y) {
+      Diagnostics diagnostics;
+      const auto path = told(trace_path(scene, {}, x, y, 0), diagnostics);
+      ASSERT_TRUE(path);
+      if (path->vertices.at(0).hit) met.insert(path->vertices.at(0).primitive);
+    }
+  }
+  EXPECT_EQ(met.size(), 2u);
 }
 
 }  // namespace

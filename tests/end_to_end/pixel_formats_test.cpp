@@ -11,6 +11,7 @@
 #include "norrsken/image.h"
 #include "tests/end_to_end/param_name.h"
 #include "tests/end_to_end/scene_folder.h"
+#include "tests/told.h"
 
 namespace norrsken::end_to_end {
 namespace {
@@ -53,9 +54,7 @@ class PixelFormat : public SceneFolder, public ::testing::WithParamInterface<For
                                       kHalf);
     const Image image = render_image(scene, {.samples_per_pixel = 4, .threads = kThreads}, layers);
     EXPECT_EQ(write_image(path("a.exr"), image).error, "");
-    Image read;
-    EXPECT_EQ(read_image(path("a.exr"), read).error, "");
-    return read;
+    return value_of(read_image(path("a.exr")));
   }
 };
 

@@ -1,4 +1,4 @@
-#include "render/schedule.h"
+#include "render/sample_schedule.h"
 
 #include <algorithm>
 #include <cmath>

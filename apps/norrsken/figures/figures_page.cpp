@@ -1,10 +1,10 @@
-#include "figures_page.h"
+#include "figures/figures_page.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "svg_plot.h"
+#include "figures/svg_plot.h"
 #include "text_format.h"
 
 namespace norrsken::cli {

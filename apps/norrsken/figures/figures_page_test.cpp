@@ -1,4 +1,4 @@
-#include "figures_page.h"
+#include "figures/figures_page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <pugixml.hpp>
 
-#include "svg_plot.h"
+#include "figures/svg_plot.h"
 
 namespace norrsken::cli {
 namespace {

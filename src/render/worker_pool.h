@@ -13,14 +13,14 @@
 #include "film/film.h"
 #include "isa/entry.h"
 #include "norrsken/render.h"
-#include "render/schedule.h"
+#include "render/sample_schedule.h"
 #include "render/wave_arena.h"
 #include "render/work_plan.h"
 
 namespace norrsken {
 
 /// Threads to use: the number asked for, or one per hardware thread for 0.
-int crew_size(int asked);
+int worker_count(int asked);
 
 /// What the workers are to render, and how far they have come.
 struct Work {
@@ -41,7 +41,7 @@ struct Work {
   std::uint64_t samples_done() const;
 };
 
-class Crew {
+class WorkerPool {
  public:
   struct Tick {
     std::chrono::milliseconds interval;
@@ -49,9 +49,9 @@ class Crew {
   };
 
   /// Borrows everything. Setting `cancelled` makes `run` return when the waves under way are on the film.
-  Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, Work& work, int threads,
-       const std::atomic<bool>& cancelled);
-  ~Crew();
+  WorkerPool(const SceneView& scene, const KernelEntry& kernels, Film& film, Work& work, int threads,
+             const std::atomic<bool>& cancelled);
+  ~WorkerPool();
 
   /// The waves that scenes are cut into.
   static TileGrid grid(const SceneView& scene, std::uint32_t width, std::uint32_t height);
@@ -71,7 +71,7 @@ class Crew {
   std::uint64_t samples_done() const { return samples_done_.load(std::memory_order_relaxed); }
   /// Of what is on the film, looked at about once a second; -1 while unknown.
   RelativeError relative_error();
-  /// Rays are those of this crew, samples those on the film.
+  /// Rays are those of these workers, samples those on the film.
   RenderStatistics statistics() const;
 
  private:

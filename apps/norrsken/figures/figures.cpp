@@ -10,10 +10,11 @@
 #include <map>
 #include <set>
 
+#include "arguments.h"
 #include "commands.h"
 #include "console.h"
-#include "equal_error.h"
-#include "figures_page.h"
+#include "figures/equal_error.h"
+#include "figures/figures_page.h"
 #include "file_use.h"
 #include "interrupt.h"
 #include "progress.h"
@@ -29,10 +30,20 @@ namespace fs = std::filesystem;
 constexpr const char* kScenePath = "builtin:hexagon_room.xml";
 
 struct Arguments {
-  std::string folder, sampler = kReportSampler, command;
+  std::string folder, sampler = kReportSampler;
   MachineArguments machine;
   MemoryArguments memory;
   bool quick = false, quiet = false;
+
+  /// The command line that gives the same figures.
+  std::string command() const {
+    std::string text = fmt::format("norrsken figures -o {}{}", folder, quick ? " --quick" : "");
+    if (sampler != kReportSampler) text += " --sampler " + sampler;
+    if (machine.threads > 0) text += fmt::format(" --threads {}", machine.threads);
+    if (machine.isa != "auto") text += " --isa " + machine.isa;
+    if (machine.accelerator != "auto") text += " --accel " + machine.accelerator;
+    return text;
+  }
 };
 
 /// Light, integrator and counts of a figure, as the report gives them; its words as the caption.
@@ -120,7 +131,7 @@ class Workshop {
  public:
   explicit Workshop(const Arguments& arguments)
       : arguments_(arguments), meter_(arguments.quiet ? Verbosity::quiet : Verbosity::text) {
-    report_.command = arguments.command;
+    report_.command = arguments.command();
     report_.machine = processor_name();
     report_.width = report_.height = arguments.quick ? 200 : kReportSide;
   }
@@ -293,36 +304,32 @@ ExitStatus figures(const Arguments& arguments) {
 
 }  // namespace
 
-void add_figures_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("figures", "Render and measure the nine figures of the room's report");
+Command figures_command() {
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("-o,--output", arguments->folder, "Folder to write to; made if it does not exist")
-      ->required()
-      ->type_name("DIR");
-  command->add_flag("--quick", arguments->quick, "200 x 200 pixels and shorter references in place of 800 x 800");
-  command
-      ->add_option("--sampler", arguments->sampler,
-                   "Sampler of the figures: independent (default, as in the report), sobol")
-      ->type_name("NAME");
-  arguments->machine.add_to(*command);
-  arguments->memory.add_to(*command);
-  command->add_flag("--quiet", arguments->quiet, "Print errors only");
-  command->footer(
+  Command command = {.name = "figures",
+                     .summary = "Render and measure the nine figures of the room's report",
+                     .options = {{.names = "-o,--output",
+                                  .target = &arguments->folder,
+                                  .value = "DIR",
+                                  .help = "Folder to write to; made if it does not exist",
+                                  .is_required = true},
+                                 {.names = "--quick",
+                                  .target = &arguments->quick,
+                                  .help = "200 x 200 pixels and shorter references in place of 800 x 800"},
+                                 {"--sampler", &arguments->sampler, "NAME",
+                                  "Sampler of the figures: independent (default, as in the report), sobol"}}};
+  arguments->machine.add_to(command);
+  arguments->memory.add_to(command);
+  command.options.push_back({.names = "--quiet", .target = &arguments->quiet, .help = "Print errors only"});
+  command.footer =
       "Renders the hexagon room with 3 bounces at the settings of figures 5 to 13, each to PNG and EXR, measures\n"
       "every figure against a converged reference, finds out how many samples one shadow ray per hit needs to be as\n"
       "right as figure 13, and shows all of it in DIR/index.html. Takes minutes, with --quick about half a minute.\n\n"
       "Examples:\n"
       "  norrsken figures -o figures\n"
-      "  norrsken figures -o /tmp/quick --quick --isa avx2");
-  command->group("Commands");
-  command->callback([&action, arguments] {
-    arguments->command = fmt::format("norrsken figures -o {}{}", arguments->folder, arguments->quick ? " --quick" : "");
-    if (arguments->sampler != kReportSampler) arguments->command += " --sampler " + arguments->sampler;
-    if (arguments->machine.threads > 0) arguments->command += fmt::format(" --threads {}", arguments->machine.threads);
-    if (arguments->machine.isa != "auto") arguments->command += " --isa " + arguments->machine.isa;
-    if (arguments->machine.accelerator != "auto") arguments->command += " --accel " + arguments->machine.accelerator;
-    action = [arguments] { return figures(*arguments); };
-  });
+      "  norrsken figures -o /tmp/quick --quick --isa avx2";
+  command.run = [arguments] { return figures(*arguments); };
+  return command;
 }
 
 }  // namespace norrsken::cli

@@ -1,4 +1,4 @@
-#include "process_testing.h"
+#include "tests/process.h"
 
 #include <fcntl.h>
 #include <poll.h>

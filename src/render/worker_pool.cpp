@@ -1,4 +1,4 @@
-#include "render/crew.h"
+#include "render/worker_pool.h"
 
 #include <algorithm>
 #include <chrono>
@@ -22,12 +22,12 @@ std::uint32_t slots_per_wave(const IntegratorSettings& integrator) {
 }
 
 /// Threads that are waited for, whatever happens: leaving early tells them to stop and joins them.
-class Gathering {
+class JoiningThreads {
  public:
-  explicit Gathering(std::atomic<bool>& stop) : stop_(stop) {}
-  Gathering(const Gathering&) = delete;
-  Gathering& operator=(const Gathering&) = delete;
-  ~Gathering() {
+  explicit JoiningThreads(std::atomic<bool>& stop) : stop_(stop) {}
+  JoiningThreads(const JoiningThreads&) = delete;
+  JoiningThreads& operator=(const JoiningThreads&) = delete;
+  ~JoiningThreads() {
     stop_.store(true, std::memory_order_relaxed);
     for (std::thread& thread : threads_) thread.join();
     stop_.store(false, std::memory_order_relaxed);
@@ -70,7 +70,7 @@ class Gathering {
 
 }  // namespace
 
-int crew_size(int asked) {
+int worker_count(int asked) {
   if (asked > 0) return asked;
   return static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
 }
@@ -99,7 +99,7 @@ std::uint64_t Work::samples_done() const {
 /// An area's samples go to the film block by block. Waves are handed out in order, so the wave that an area waits for is
 /// always under way, and waiting for it cannot lock up. Paths from the lights land anywhere: for them the film is one
 /// area, and every wave a block of it.
-struct Crew::Area {
+struct WorkerPool::Area {
   std::mutex mutex;  // the film's pixels of this area, its tiles' progress, and `next_block`
   std::condition_variable turn;
   std::uint64_t next_block = 0;
@@ -111,8 +111,8 @@ struct Crew::Area {
   int looking = 0;
 };
 
-Crew::Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, Work& work, int threads,
-           const std::atomic<bool>& cancelled)
+WorkerPool::WorkerPool(const SceneView& scene, const KernelEntry& kernels, Film& film, Work& work, int threads,
+                       const std::atomic<bool>& cancelled)
     : scene_(scene),
       feature_scene_(scene),
       kernels_(kernels),
@@ -126,25 +126,25 @@ Crew::Crew(const SceneView& scene, const KernelEntry& kernels, Film& film, Work&
   feature_scene_.needs_uv = scene.needs_uv || (film_view_.feature_mask & (kUvFeatures | kNormalFeatures)) != 0;
 }
 
-Crew::~Crew() = default;
+WorkerPool::~WorkerPool() = default;
 
-TileGrid Crew::grid(const SceneView& scene, std::uint32_t width, std::uint32_t height) {
+TileGrid WorkerPool::grid(const SceneView& scene, std::uint32_t width, std::uint32_t height) {
   return TileGrid(width, height, slots_per_wave(scene.integrator));
 }
 
-bool Crew::run_features(const Tick& tick) {
+bool WorkerPool::run_features(const Tick& tick) {
   const TileProgress& progress = work_.feature_progress;
   const WorkPlan::Cut cut = cut_for(work_.grid, work_.feature_samples, progress, progress);
   return run_passes(Pass::features, plan_passes(work_.grid, work_.feature_samples, cut), tick);
 }
 
-bool Crew::run(const Tick& tick) {
+bool WorkerPool::run(const Tick& tick) {
   const Pass pass = scene_.integrator.from_lights ? Pass::particles : Pass::radiance;
   const WorkPlan::Cut cut = cut_for(work_.grid, work_.samples, work_.goal.of_tile, work_.progress);
   return run_passes(pass, plan_passes(work_.grid, work_.samples, cut), tick);
 }
 
-bool Crew::run_passes(Pass pass, const std::vector<WorkPlan>& plans, const Tick& tick) {
+bool WorkerPool::run_passes(Pass pass, const std::vector<WorkPlan>& plans, const Tick& tick) {
   for (const WorkPlan& plan : plans) {
     const End end = run_pass(pass, plan, tick);
     if (end != End::whole) return end != End::no_threads;
@@ -153,7 +153,7 @@ bool Crew::run_passes(Pass pass, const std::vector<WorkPlan>& plans, const Tick&
   return true;
 }
 
-void Crew::start_areas(Pass pass, const WorkPlan& plan) {
+void WorkerPool::start_areas(Pass pass, const WorkPlan& plan) {
   areas_wanted_ = true;
   const std::lock_guard lock(areas_mutex_);
   areas_wanted_ = false;
@@ -176,7 +176,7 @@ void Crew::start_areas(Pass pass, const WorkPlan& plan) {
   areas_[0].next_block = first_wave_;
 }
 
-Crew::End Crew::run_pass(Pass pass, const WorkPlan& plan, const Tick& tick) {
+WorkerPool::End WorkerPool::run_pass(Pass pass, const WorkPlan& plan, const Tick& tick) {
   start_areas(pass, plan);
   const std::uint64_t waves = plan.wave_count() - first_wave_;
   if (waves == 0) return End::whole;
@@ -185,20 +185,20 @@ Crew::End Crew::run_pass(Pass pass, const WorkPlan& plan, const Tick& tick) {
   arenas_.reserve(wanted);
   while (arenas_.size() < wanted) arenas_.emplace_back(kWaveSlots, scene_.integrator.from_lights);
   std::atomic<std::uint64_t> next_wave{first_wave_};
-  Gathering gathering(stop_);
+  JoiningThreads threads(stop_);
   for (std::size_t i = 0; i < wanted; ++i) {
     WaveMemory& memory = arenas_[i].memory();
-    if (!gathering.start([this, pass, &plan, &next_wave, &memory] { work(pass, plan, next_wave, memory); })) break;
+    if (!threads.start([this, pass, &plan, &next_wave, &memory] { work(pass, plan, next_wave, memory); })) break;
   }
-  if (gathering.size() == 0) return End::no_threads;
-  threads_used_ = std::max(threads_used_, gathering.size());
-  while (!gathering.wait_for(tick.interval)) {
-    if (!tick.call()) return End::stopped;  // the gathering stops
+  if (threads.size() == 0) return End::no_threads;
+  threads_used_ = std::max(threads_used_, threads.size());
+  while (!threads.wait_for(tick.interval)) {
+    if (!tick.call()) return End::stopped;  // the destructor of `threads` stops them
   }
   return cancelled_.load(std::memory_order_relaxed) ? End::stopped : End::whole;
 }
 
-void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave, WaveMemory& memory) {
+void WorkerPool::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& next_wave, WaveMemory& memory) {
   const TileProgress& progress = pass == Pass::radiance ? work_.progress : work_.feature_progress;
   constexpr std::uint32_t kAll = std::numeric_limits<std::uint32_t>::max() / 2;
   WaveCounts counts;
@@ -230,7 +230,8 @@ void Crew::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t>& nex
   counts_.shadow_rays += counts.shadow_rays;
 }
 
-void Crew::add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, const WaveJob& job, WaveMemory& memory) {
+void WorkerPool::add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, const WaveJob& job,
+                             WaveMemory& memory) {
   Area& area = areas_[plan.area_of(wave)];
   DroppedSamples dropped;
   {
@@ -249,8 +250,8 @@ void Crew::add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, cons
   if (pass == Pass::radiance) count_samples(job, dropped);
 }
 
-void Crew::trace_particles(const WorkPlan& plan, std::uint64_t wave, const WaveJob& whole, WaveMemory& memory,
-                           WaveCounts& counts) {
+void WorkerPool::trace_particles(const WorkPlan& plan, std::uint64_t wave, const WaveJob& whole, WaveMemory& memory,
+                                 WaveCounts& counts) {
   Area& film = areas_[0];
   // An area's waves may be under way side by side, but only its first may have a part of its samples on the film.
   WaveJob job = whole;
@@ -279,14 +280,14 @@ void Crew::trace_particles(const WorkPlan& plan, std::uint64_t wave, const WaveJ
   count_samples(job, dropped);
 }
 
-void Crew::count_samples(const WaveJob& job, const DroppedSamples& dropped) {
+void WorkerPool::count_samples(const WaveJob& job, const DroppedSamples& dropped) {
   samples_done_.fetch_add(std::uint64_t{job.pixel_count()} * job.sample_count, std::memory_order_relaxed);
   if (dropped.count == 0) return;
   const std::lock_guard lock(mutex_);
   work_.dropped.add(dropped);
 }
 
-void Crew::look_at_area(Area& area, const FilmRegion& part, const std::function<void(const FilmRegion&)>& look) {
+void WorkerPool::look_at_area(Area& area, const FilmRegion& part, const std::function<void(const FilmRegion&)>& look) {
   // Large areas row by row, so that whoever wants to write there gets in between.
   constexpr std::uint32_t kPixelsAtOnce = 1u << 14;
   const std::uint32_t rows = std::max(kPixelsAtOnce / std::max(part.width, 1u), 1u);
@@ -300,7 +301,7 @@ void Crew::look_at_area(Area& area, const FilmRegion& part, const std::function<
   }
 }
 
-void Crew::look_at(const FilmRegion& region, const std::function<void(const FilmRegion&)>& look) {
+void WorkerPool::look_at(const FilmRegion& region, const std::function<void(const FilmRegion&)>& look) {
   // A new pass divides the film anew: then it is looked at from the start. Where that goes on, the pass waits.
   constexpr int kMostAttempts = 4;
   for (int attempt = 1;; ++attempt) {
@@ -320,7 +321,7 @@ void Crew::look_at(const FilmRegion& region, const std::function<void(const Film
   }
 }
 
-std::uint32_t Crew::least_samples() {
+std::uint32_t WorkerPool::least_samples() {
   std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
   const auto look = [&](const FilmRegion& part) {
     work_.grid.for_each_tile(part, [&](std::uint64_t tile) { least = std::min(least, work_.progress[tile]); });
@@ -329,7 +330,7 @@ std::uint32_t Crew::least_samples() {
   return least;
 }
 
-RelativeError Crew::relative_error() {
+RelativeError WorkerPool::relative_error() {
   // Looking costs a pass over the film, so it is done once a second, and only while it would tell something new.
   const std::uint64_t samples = samples_done();
   const auto now = std::chrono::steady_clock::now();
@@ -352,7 +353,7 @@ RelativeError Crew::relative_error() {
   return last_error_ = total.relative();
 }
 
-RenderStatistics Crew::statistics() const {
+RenderStatistics WorkerPool::statistics() const {
   const std::lock_guard lock(mutex_);
   RenderStatistics s;
   s.samples = samples_done();

@@ -1,4 +1,4 @@
-#include "equal_error.h"
+#include "figures/equal_error.h"
 
 #include <algorithm>
 #include <cmath>
