@@ -50,7 +50,8 @@ Pattern Textures::color(Parameters& p, std::string_view name, Slot slot, const C
 
 void Textures::finish() {
   for (auto& [key, definition] : definitions_) {
-    const bool is_used = std::ranges::any_of(patterns_, [&key = key](const auto& known) { return known.first.first == key; });
+    const bool is_used =
+        std::ranges::any_of(patterns_, [&key = key](const auto& known) { return known.first.first == key; });
     if (!is_used) read(key, definition, key.first == "float" ? Slot::unbounded : Slot::albedo);
     definition.parameters.finish();
   }
