@@ -37,7 +37,7 @@ struct RenderOptions {
   /// rendering (fewer samples of it, too), and `run` writes it, at its end as well. The one before stays as FILE.1.
   /// Render::create refuses it while another Render has it, of this process or another.
   std::string checkpoint = {};
-  double checkpoint_seconds = 60;  ///< from one writing to the next
+  double checkpoint_seconds = 60;  ///< from one writing to the next; more than 0
   /// Called with each diagnostic of Render::create as it comes; the result has them all.
   DiagnosticSink log = {};
 };

@@ -72,7 +72,7 @@ TEST(ConductorHost, RefusesOtherMaterials) {
               ElementsAre(::testing::AllOf(HasSubstr("error: 'material' is 'Aul', did you mean 'Al'?"),
                                            HasSubstr("[none, a-C, Ag, Al, "))));
   EXPECT_THAT(compile("conductor", R"(<float name="material" value="1"/>)").messages(),
-              ElementsAre("error: 'material' is a float [string]"));
+              ElementsAre("error: 'material' is a float [string: beckmann, ggx]"));
 }
 
 TEST(ConductorHost, TakesAnIndexOrAMaterial) {
@@ -132,7 +132,7 @@ TEST(RoughconductorHost, RefusesWrongValues) {
   EXPECT_THAT(compile("roughconductor", R"(<string name="distribution" value="bekmann"/>)").messages(),
               ElementsAre("error: 'distribution' is 'bekmann', did you mean 'beckmann'? [beckmann, ggx]"));
   EXPECT_THAT(compile("roughconductor", R"(<float name="distribution" value="1"/>)").messages(),
-              ElementsAre("error: 'distribution' is a float [string]"));
+              ElementsAre("error: 'distribution' is a float [string: beckmann, ggx]"));
   EXPECT_THAT(compile("roughconductor", R"(<float name="sample_visible" value="1"/>)").messages(),
               ElementsAre("error: 'sample_visible' is a float [boolean]"));
 }

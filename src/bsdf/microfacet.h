@@ -146,8 +146,7 @@ struct RoughnessSlots {
 template <class Stored>
 NORRSKEN_INLINE Microfacet load_microfacet(const ParameterReader& p, RoughnessSlots Stored::*facets) {
   return {max(p.get(facets, &RoughnessSlots::alpha_u), Float(kMinAlpha)),
-          max(p.get(facets, &RoughnessSlots::alpha_v), Float(kMinAlpha)),
-          p.get(facets, &RoughnessSlots::ggx) > 0.5f};
+          max(p.get(facets, &RoughnessSlots::alpha_v), Float(kMinAlpha)), p.get(facets, &RoughnessSlots::ggx) > 0.5f};
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

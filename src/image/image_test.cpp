@@ -66,6 +66,12 @@ TEST(Image, ChannelAddsZerosOnceAndFindFindsThem) {
   EXPECT_EQ(image.find("depth"), nullptr);
 }
 
+TEST(Image, OfNoSizeHasNoValues) {
+  Image image;
+  image.width = -3, image.height = 2;
+  EXPECT_TRUE(image.channel("R").values.empty());
+}
+
 TEST_F(ImageFileTest, ExrGivesBackEveryBit) {
   Image image = made_up_image(37, 21, {"R", "G", "B", "samples", "variance.R", "depth.Z", "id"});
   auto& red = image.channels[0].values;

@@ -29,8 +29,7 @@ struct SpotLight {
     const Float slope = (stored(&Stored::cutoff) - acos(cos_theta)) * stored(&Stored::inverse_width);
     const Float falloff = select(cos_theta >= stored(&Stored::cos_beam), 1.0f, slope);
     const Float inverse_square = 1.0f / dot(from_light, from_light);
-    const Mask lit =
-        (cos_theta > stored(&Stored::cos_cutoff)) & (falloff > 0.0f) & (inverse_square < Float(kInf));
+    const Mask lit = (cos_theta > stored(&Stored::cos_cutoff)) & (falloff > 0.0f) & (inverse_square < Float(kInf));
     Color intensity = light.emission * falloff;
     if (scene.texture_kinds != 0) {
       const UInt texture = stored(&Stored::texture);
@@ -52,8 +51,7 @@ struct SpotLight {
   /// Uniform over the cone.
   static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f, Vec2f direction,
                                          Mask active) {
-    const Float one_minus_cos =
-        1.0f - gather_slot(scene.parameters, &Stored::cos_cutoff, light.parameters, active);
+    const Float one_minus_cos = 1.0f - gather_slot(scene.parameters, &Stored::cos_cutoff, light.parameters, active);
     return emit_from_axes<SpotLight>(scene, light, warp_to_cone(direction, one_minus_cos), cone_pdf_sa(one_minus_cos),
                                      active);
   }

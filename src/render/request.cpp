@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "compile/compile.h"
@@ -34,6 +35,9 @@ void check_options(const Scene& scene, const RenderOptions& options, Diagnostics
     diagnostics.error({}, fmt::format("target error is {}", options.target_error), "more than 0 and less than 1");
   }
   if (!(options.seconds >= 0)) diagnostics.error({}, fmt::format("time is {} s", options.seconds), "more than 0");
+  if (!(options.checkpoint_seconds > 0 && std::isfinite(options.checkpoint_seconds))) {
+    diagnostics.error({}, fmt::format("time between checkpoints is {} s", options.checkpoint_seconds), "more than 0");
+  }
   if (goes_by_steps(options) && options.samples) {
     diagnostics.error({}, "samples of a range are taken all",
                       "no range, or neither an error, nor a time, nor adaptivity");

@@ -185,6 +185,8 @@ TEST(Steps, RefuseWhatHasNoMeaning) {
   EXPECT_EQ(complaint({.target_error = 1}), "target error is 1");
   EXPECT_EQ(complaint({.target_error = std::nan("")}), "target error is nan");
   EXPECT_EQ(complaint({.seconds = -1}), "time is -1 s");
+  EXPECT_EQ(complaint({.checkpoint_seconds = 0}), "time between checkpoints is 0 s");
+  EXPECT_EQ(complaint({.checkpoint_seconds = std::nan("")}), "time between checkpoints is nan s");
   EXPECT_EQ(complaint({.samples = SampleRange{0, 4}, .adaptive = true}), "samples of a range are taken all");
 }
 
