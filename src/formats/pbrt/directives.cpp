@@ -138,9 +138,9 @@ void DirectiveReader::read_text(const Source& source) {
 void DirectiveReader::read_directive(const Token& word) {
   const Directive& directive = *find_directive(word.text);
   if (directive.part == Part::header && in_world_) {
-    error(word.place, fmt::format("{} behind WorldBegin", word.text), "it stands before");
+    error(word.place, fmt::format("{} behind WorldBegin", word.text), "it before WorldBegin");
   } else if (directive.part == Part::world && !in_world_) {
-    error(word.place, fmt::format("{} before WorldBegin", word.text), "it stands behind");
+    error(word.place, fmt::format("{} before WorldBegin", word.text), "it behind WorldBegin");
   } else {
     (this->*directive.read)(word);
   }
