@@ -104,7 +104,7 @@ norrsken_mutant(no_weight_of_the_chosen_lobe bsdf/plastic.h
   "reflected / specular_prob" "reflected"
   IN rendering BY "*Furnace*plastic" SAYING "The difference between mean and 2 [*] c.shown is")
 norrsken_mutant(swapped_eta bsdf/dielectric.h
-  "p.number(8)" "Float(1.0f) / p.number(8)"
+  "p.get(&Stored::eta)" "1.0f / p.get(&Stored::eta)"
   IN rendering BY "*Refraction*" SAYING "The difference between got.k. and wanted.k. is")
 norrsken_mutant(refracted_to_the_wrong_side bsdf/dielectric.h
   "-f.cos_t" "f.cos_t"
@@ -114,7 +114,7 @@ norrsken_mutant(refracted_by_the_inverse_eta bsdf/fresnel.h
   IN bsdf_model_test BY "*EveryBsdf.WeightIsValueOverDensity/roughdielectric*"
   SAYING "The difference between double.dot.s.wi, s.wi.[.]v. and 1.0 is")
 norrsken_mutant(k_in_the_place_of_eta bsdf/roughconductor.h
-  "p.color(4)" "p.color(8)"
+  "p.get(&Stored::eta)" "p.get(&Stored::k)"
   IN glass_and_metal_test BY "RoughConductor.HasTheReflectance*"
   SAYING "The difference between double.s.weight.r.v. and normal_incidence")
 
