@@ -9,19 +9,9 @@
 #include "light/light_host.h"
 
 namespace norrsken {
-namespace {
-
-constexpr ColorParameter kRadiance{.name = "radiance",
-                                   .fallback = 1,
-                                   .range = {0, kMaxEmission},
-                                   .text = "",
-                                   .unit = "W / (m^2 sr)",
-                                   .of = ColorOf::light};
-
-}  // namespace
 
 void compile_emitter_area(Parameters& p, Lights& lights, std::uint32_t shape) {
-  const ColorOrTexture given = lights.read(p, kRadiance);
+  const ColorOrTexture given = lights.read(p, kUniformRadiance);
   const glm::dvec3 radiance = given.rgb();
   lights.describe(p.node(), fmt::format("radiance {:.6g} {:.6g} {:.6g}", radiance.r, radiance.g, radiance.b));
   if (shape == kNone) {

@@ -4,20 +4,10 @@
 #include "light/light_host.h"
 
 namespace norrsken {
-namespace {
-
-constexpr ColorParameter kRadiance{.name = "radiance",
-                                   .fallback = 1,
-                                   .range = {0, kMaxEmission},
-                                   .text = "",
-                                   .unit = "W / (m^2 sr)",
-                                   .of = ColorOf::light};
-
-}  // namespace
 
 void compile_emitter_constant(Parameters& p, Lights& lights, std::uint32_t shape) {
   refuse_shape(p, shape, "surrounds the scene");
-  const glm::dvec3 radiance = p.read(kRadiance).rgb();
+  const glm::dvec3 radiance = p.read(kUniformRadiance).rgb();
   LightRecord light{};
   light.kind = LightKind::constant;
   set_values(light.emission, radiance);

@@ -10,6 +10,14 @@
 
 namespace norrsken {
 
+/// Of what shines alike in all directions.
+inline constexpr ColorParameter kUniformRadiance{.name = "radiance",
+                                                 .fallback = 1,
+                                                 .range = {0, kMaxEmission},
+                                                 .text = "",
+                                                 .unit = "W / (m^2 sr)",
+                                                 .of = ColorOf::light};
+
 void set_values(float (&out)[3], const glm::dvec3& v);
 
 /// The local axes of an emitter as rows: what takes directions of the world into its space.

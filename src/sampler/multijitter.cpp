@@ -6,14 +6,6 @@
 #include "sampler/sampler_host.h"
 
 namespace norrsken {
-namespace {
-
-constexpr BooleanParameter kJitter{
-    .name = "jitter",
-    .fallback = true,
-    .text = "whether points move within their cells; they always do, so it changes nothing"};
-
-}  // namespace
 
 SamplerSettings compile_sampler_multijitter(Parameters& p) {
   p.read(kJitter);

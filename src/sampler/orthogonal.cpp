@@ -15,10 +15,6 @@ constexpr IntegerParameter kStrength{.name = "strength",
                                      .text =
                                          "how many coordinates are stratified together; the Sobol' points are what "
                                          "they are, so it changes nothing"};
-constexpr BooleanParameter kJitter{
-    .name = "jitter",
-    .fallback = true,
-    .text = "whether points move within their cells; they always do, so it changes nothing"};
 
 }  // namespace
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "accel/intersect.h"
-#include "wave/skip_emitters.h"
 
 namespace norrsken::NORRSKEN_ISA {
 

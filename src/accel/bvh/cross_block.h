@@ -19,8 +19,8 @@ struct BlockCrossing {
   std::uint32_t crossed;  ///< bit i: triangle i, for a t of any sign
 };
 
-/// How many times the distance a corner may be away. What is interpolated rounds relative to that, which
-/// does not matter within RayState::reach.
+/// How many times the distance a corner may be away. What is interpolated rounds relative to that, which does not matter
+/// within RayState::reach.
 inline constexpr float kMostReach = 8.0f;
 
 /// The distance along a ray to a triangle's plane.
