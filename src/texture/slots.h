@@ -13,7 +13,8 @@ template <class Block, class Slot>
 NORRSKEN_INLINE std::uint32_t floats_before(Slot Block::*member) {
   const Block block{};
   const auto* begin = reinterpret_cast<const char*>(&block);
-  return static_cast<std::uint32_t>(reinterpret_cast<const char*>(&(block.*member)) - begin) / sizeof(float);
+  const auto bytes = static_cast<std::uint32_t>(reinterpret_cast<const char*>(&(block.*member)) - begin);
+  return bytes / std::uint32_t{sizeof(float)};
 }
 /// The same before a member of a block inside of it.
 template <class Block, class Inner, class Slot>
