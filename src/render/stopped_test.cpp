@@ -48,9 +48,9 @@ class Rendering {
       now.of_tile = after_waves(*goal, waves);
       work_.set_goal(now);
       std::atomic<bool> cancelled{false};
-      WorkerPool(view_, *wide_kernels().front(), film_, work_, 2, cancelled).run({std::chrono::seconds(1), [] {
-                                                                                    return true;
-                                                                                  }});
+      WorkerPool(view_, **usable_kernels(), film_, work_, 2, cancelled).run({std::chrono::seconds(1), [] {
+                                                                               return true;
+                                                                             }});
       EXPECT_TRUE(work_.done());
       goal = schedule.next(work_.grid, film_, *goal, 0, 0);
     }
