@@ -26,7 +26,9 @@ struct Diagnostic {
   /// A note is nothing to mend: what was understood otherwise than it is written, or has no effect.
   enum class Severity { error, warning, note };
   Severity severity = Severity::error;
-  std::string message;  ///< what was found, without a full stop: "unknown bsdf 'difuse'"
+  /// What was found, without a full stop: "unknown bsdf 'difuse'". It quotes the file as it is, control characters
+  /// too; `to_text` makes of it what may go to a terminal.
+  std::string message;
   std::string
       accepted;  ///< what would have been accepted: "conductor, diffuse, twosided"; may be empty, or have several lines
   SourceLocation location;

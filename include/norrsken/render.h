@@ -90,6 +90,8 @@ struct RenderPass {
 };
 
 /// Called from the thread that called `run`, while the others go on; they may call everything of their Render but `run`.
+/// What they throw leaves `run` when the workers have ended: the image is there, but nothing more is written to the
+/// checkpoint.
 struct RenderCallbacks {
   std::function<void(const RenderProgress&)> on_progress = {};  ///< about ten times a second, and once at the end
   /// When every pixel has more than at the call before: after the first sample of each and the second, then at most ten

@@ -69,9 +69,12 @@ struct ViewOptions {
   /// other one goes.
   std::vector<Property> camera = {};
   std::optional<int> width = {}, height = {};  ///< of the whole film; the picture, and a crop window in it, stay
-  std::optional<Crop> crop = {};               ///< the part that is rendered, in pixels of a film of this size
+  /// The part that is rendered, in pixels of a film of this size. Its pixels draw other random numbers than the same
+  /// pixels of the whole image.
+  std::optional<Crop> crop = {};
   std::optional<std::string> integrator = {}, sampler = {};  ///< plugin names; parameters are kept as far as they fit
   std::optional<Node> integrator_node = {}, sampler_node = {};
+  /// Of the sampler alone. What else a scene makes of a `$spp` stays as it was loaded (LoadOptions::samples_per_pixel).
   std::optional<int> samples_per_pixel = {};
 };
 

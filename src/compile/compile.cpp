@@ -166,9 +166,19 @@ std::optional<SceneFrame> compile_frame(const LoadedScene& scene, const SceneFra
   const ViewOptions view = merged(frame.view, changes, frame.film);
   Description given;  // what a program puts together
   Node nodes("scene");
-  for (const std::optional<Node>* node : {&changes.sensor_node, &changes.integrator_node, &changes.sampler_node}) {
-    if (*node) nodes.add(**node);
-  }
+  const auto take = [&](const std::optional<Node>& node, std::string_view kind) {
+    if (!node) return true;
+    if (node->kind != kind || node->plugin.empty()) {
+      diagnostics.error({}, fmt::format("{} in place of a {}", name_of(*node), kind),
+                        fmt::format("a node of kind {}, with a plugin", kind));
+      return false;
+    }
+    nodes.add(*node);
+    return true;
+  };
+  if (!take(changes.sensor_node, "sensor") || !take(changes.integrator_node, "integrator") ||
+      !take(changes.sampler_node, "sampler"))
+    return std::nullopt;
   Node camera;
   camera.properties = changes.camera;
   nodes.add(std::move(camera));

@@ -34,6 +34,11 @@ struct Statistics {
   }
 };
 
+/// An image that a program gives has no path.
+std::string image_name(const std::string& path) {
+  return path.empty() ? "the image" : "the image " + quoted(path, 200);
+}
+
 }  // namespace
 
 std::optional<StoredImage> ImageStore::load(const std::string& path, bool raw, const SourceLocation& named_at) {
@@ -110,13 +115,13 @@ std::optional<StoredImage> ImageStore::copy(const Image& image, Parameters& p) {
   for (std::size_t i = 0; i < pixels; ++i) {
     for (const Channel* channel : channels) texels.values.push_back(channel->values[i]);
   }
-  return store(texels, /*raw=*/true, "of the program", p.where("image"));
+  return store(texels, /*raw=*/true, /*path=*/{}, p.where("image"));
 }
 
 std::optional<StoredImage> ImageStore::store(const TexelImage& image, bool raw, const std::string& path,
                                              const SourceLocation& named_at) {
   const auto warn = [&](const std::string& message) {
-    diagnostics_.warning(named_at, fmt::format("the image {} {}", quoted(path, 200), message));
+    diagnostics_.warning(named_at, fmt::format("{} {}", image_name(path), message));
   };
   auto& texels = tables_.texels;
   const auto channels = static_cast<std::size_t>(image.channels);
@@ -180,10 +185,9 @@ std::optional<StoredImage> ImageStore::store(const TexelImage& image, bool raw, 
 
 bool ImageStore::has_room(std::size_t texels, const std::string& path, const SourceLocation& named_at) {
   if (texels < kMaxTexels - std::min(tables_.texels.size(), kMaxTexels)) return true;
-  diagnostics_.error(
-      named_at,
-      fmt::format("cannot read the image {}: the scene's images are too many or too large", quoted(path, 200)),
-      fmt::format("{} texels in all", kMaxTexels));
+  diagnostics_.error(named_at,
+                     fmt::format("cannot read {}: the scene's images are too many or too large", image_name(path)),
+                     fmt::format("{} texels in all", kMaxTexels));
   return false;
 }
 

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
+#include <string_view>
 #include <type_traits>
 
 #include "base/checksum.h"
@@ -31,7 +33,12 @@ class Check {
     if (open_ > kMaxDepth) {
       fail(fmt::format("nodes are nested more than {} deep", kMaxDepth), fmt::format("up to {}", kMaxDepth));
     } else {
-      for (const Property& property : node.properties) check(property, node);
+      std::set<std::string_view> names;
+      for (const Property& property : node.properties) {
+        check(property, node);
+        if (!names.insert(property.name).second)
+          fail(fmt::format("{} is given twice to {}", quoted(property.name), name_of(node)), "one value of each name");
+      }
       for (const Node::Child& child : node.children) {
         if (!good_) break;
         if (!child.node) {

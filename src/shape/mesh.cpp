@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "formats/mesh_flaws.h"
 #include "shape/mesh_host.h"
 
 namespace norrsken {
@@ -53,31 +56,46 @@ class Check {
  public:
   Check(Parameters& p, std::string_view name) : p_(p), name_(name) {}
 
-  void numbers(std::string_view what, std::span<const float> values, std::size_t expected) {
-    if (values.size() != expected) {
-      fail(fmt::format("the mesh has {} {}", values.size(), what), fmt::format("{} of them", expected));
-    } else if (!std::ranges::all_of(values,
-                                    [](float v) { return std::abs(static_cast<double>(v)) <= kMaxCoordinate; })) {
-      fail(fmt::format("some {} of the mesh are not finite, or too large", what),
-           fmt::format("{:g} to {:g}", -kMaxCoordinate, kMaxCoordinate));
+  /// `each` values for each vertex or triangle; those of the used ones are looked at.
+  void numbers(std::string_view what, std::span<const float> values, std::size_t each, const std::vector<bool>& used) {
+    if (values.size() != each * used.size())
+      return fail(fmt::format("the mesh has {} {}", values.size(), what),
+                  fmt::format("{} of them", each * used.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!used[i / each] || std::abs(static_cast<double>(values[i])) <= kMaxCoordinate) continue;
+      return fail(fmt::format("some {} of the mesh are not finite, or too large", what),
+                  fmt::format("{:g} to {:g}", -kMaxCoordinate, kMaxCoordinate));
     }
   }
-  void triangles(std::span<const std::uint32_t> triangles, std::size_t vertices) {
+  /// Which vertices are those of triangles; what the others hold is nobody's concern.
+  std::vector<bool> triangles(std::span<const std::uint32_t> triangles, std::size_t vertices) {
     if (triangles.size() % 3 != 0)
       fail(fmt::format("{} corners of the mesh's triangles", triangles.size()), "a multiple of 3");
-    const auto beyond = std::ranges::find_if(triangles, [vertices](std::uint32_t v) { return v >= vertices; });
-    if (beyond != triangles.end())
-      fail(fmt::format("a triangle of the mesh has vertex {} of {}", *beyond, vertices), "vertices counted from 0");
+    std::vector<bool> used(vertices);
+    for (const std::uint32_t vertex : triangles) {
+      if (vertex >= vertices) {
+        fail(fmt::format("a triangle of the mesh has vertex {} of {}", vertex, vertices), "vertices counted from 0");
+        break;
+      }
+      used[vertex] = true;
+    }
+    return used;
   }
-  void attribute(const Mesh::Attribute& attribute, std::size_t vertices, std::size_t triangles) {
-    const bool per_face = attribute.name.starts_with("face_");
-    if (!per_face && !attribute.name.starts_with("vertex_"))
-      fail(fmt::format("attribute '{}' of the mesh", attribute.name), "a name that begins with vertex_ or face_");
-    if (attribute.channels != 1 && attribute.channels != 3)
-      return fail(fmt::format("attribute '{}' of the mesh has {} channels", attribute.name, attribute.channels),
-                  "1 or 3");
-    numbers("values of attribute '" + attribute.name + "'", attribute.values,
-            static_cast<std::size_t>(attribute.channels) * (per_face ? triangles : vertices));
+  void attributes(std::span<const Mesh::Attribute> attributes, std::size_t triangles, const std::vector<bool>& used) {
+    std::set<std::string_view> names;
+    for (const Mesh::Attribute& attribute : attributes) {
+      const bool per_face = attribute.name.starts_with("face_");
+      if (!per_face && !attribute.name.starts_with("vertex_")) {
+        fail(fmt::format("attribute '{}' of the mesh", attribute.name), "a name that begins with vertex_ or face_");
+      } else if (!names.insert(attribute.name).second) {
+        fail(fmt::format("the mesh has two attributes '{}'", attribute.name), "one of each name");
+      } else if (attribute.channels != 1 && attribute.channels != 3) {
+        fail(fmt::format("attribute '{}' of the mesh has {} channels", attribute.name, attribute.channels), "1 or 3");
+      } else {
+        numbers("values of attribute '" + attribute.name + "'", attribute.values,
+                static_cast<std::size_t>(attribute.channels), per_face ? std::vector<bool>(triangles, true) : used);
+      }
+    }
   }
   bool good() const { return good_; }
 
@@ -98,22 +116,20 @@ std::optional<MeshData> read_arrays(Parameters& p) {
   const Array<std::uint32_t> triangles = p.indices(kTriangles);
   if (positions.empty() || triangles.empty()) return std::nullopt;
   Check corners(p, kTriangles.name), at_normals(p, kNormals.name), at_texcoords(p, kTexcoords.name);
-  corners.triangles(triangles, positions.size() / 3);
-  if (!normals.empty()) at_normals.numbers("components of normals", normals, positions.size());
-  if (!texcoords.empty()) at_texcoords.numbers("texture coordinates", texcoords, positions.size() / 3 * 2);
+  const std::vector<bool> used = corners.triangles(triangles, positions.size() / 3);
+  if (!normals.empty()) at_normals.numbers("components of normals", normals, 3, used);
+  if (!texcoords.empty()) at_texcoords.numbers("texture coordinates", texcoords, 2, used);
   if (!corners.good() || !at_normals.good() || !at_texcoords.good()) return std::nullopt;
   return in_groups(positions, normals, texcoords, triangles);
 }
 
 std::optional<MeshData> copy_mesh(const Mesh& given, Parameters& p) {
   Check check(p, "mesh");
-  const std::size_t vertices = given.positions.size() / 3;
-  check.numbers("coordinates", given.positions, 3 * vertices);
-  check.triangles(given.triangles, vertices);
-  if (!given.normals.empty()) check.numbers("components of normals", given.normals, 3 * vertices);
-  if (!given.texcoords.empty()) check.numbers("texture coordinates", given.texcoords, 2 * vertices);
-  for (const Mesh::Attribute& attribute : given.attributes)
-    check.attribute(attribute, vertices, given.triangles.size() / 3);
+  const std::vector<bool> used = check.triangles(given.triangles, given.positions.size() / 3);
+  check.numbers("coordinates", given.positions, 3, used);
+  if (!given.normals.empty()) check.numbers("components of normals", given.normals, 3, used);
+  if (!given.texcoords.empty()) check.numbers("texture coordinates", given.texcoords, 2, used);
+  check.attributes(given.attributes, given.triangles.size() / 3, used);
   if (!check.good()) return std::nullopt;
   MeshData mesh = in_groups(given.positions, given.normals, given.texcoords, given.triangles);
   for (const Mesh::Attribute& attribute : given.attributes) {
@@ -122,6 +138,12 @@ std::optional<MeshData> copy_mesh(const Mesh& given, Parameters& p) {
                                attribute.name.starts_with("face_"),
                                {attribute.values.begin(), attribute.values.end()}});
   }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) mesh.positions[i] = {};
+  }
+  leave_out_not_finite(mesh);
+  if (given.triangles.empty())
+    p.diagnostics().warning(p.where("mesh"), "the mesh has no triangles, nothing of it is drawn");
   return mesh;
 }
 

@@ -143,6 +143,22 @@ TEST(BuiltScene, TakesMeshesAndArraysAsFilesDo) {
   EXPECT_TRUE(identical(rendered(Scene::load(SceneSource::memory("scene.xml", text))), from_file));
 }
 
+TEST(BuiltScene, LooksAtNothingThatNoTriangleUses) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Node lamp("emitter", "constant");
+  Mesh clean = tetrahedron(), odd = clean, empty;
+  clean.positions.insert(clean.positions.end(), {0, 0, 0});
+  odd.positions.insert(odd.positions.end(), {nan, 1e30f, 0});
+  const auto rendered_mesh = [&](const Mesh& mesh) {
+    return rendered(Scene::build(description_of({Node("shape", "mesh").set("mesh", mesh), lamp})));
+  };
+  EXPECT_TRUE(identical(rendered_mesh(odd), rendered_mesh(clean)));
+  const auto built = Scene::build(description_of({Node("shape", "mesh").set("mesh", empty), lamp}));
+  ASSERT_TRUE(built);
+  ASSERT_EQ(built.diagnostics().all().size(), 1u);
+  EXPECT_EQ(built.diagnostics().all()[0].message, "the mesh has no triangles, nothing of it is drawn");
+}
+
 /// A colour for each vertex of a mesh that is as bright as it says, all around.
 TEST(BuiltScene, MeshesHaveAttributesNormalsAndTexcoords) {
   Mesh square;
@@ -221,6 +237,13 @@ TEST(BuiltScene, WhatIsWrongIsSaid) {
               m.attributes = {{"glow", 1, {1, 2, 3, 4}}};
             })),
             "attribute 'glow' of the mesh [a name that begins with vertex_ or face_]");
+  EXPECT_EQ(error(mesh_with([](Mesh& m) {
+              m.attributes = {{"vertex_glow", 1, {1, 2, 3, 4}}, {"vertex_glow", 1, {1, 2, 3, 4}}};
+            })),
+            "the mesh has two attributes 'vertex_glow' [one of each name]");
+  Node twice("shape", "sphere");
+  twice.properties = {{"radius", 1.0}, {"radius", 2.0}};
+  EXPECT_EQ(error(with(twice)), "'radius' is given twice to sphere [one value of each name]");
   EXPECT_EQ(error(with(Node("shape", "mesh").set("positions", FloatArray{0, 0, 0}))),
             "shape 'mesh' needs a parameter 'triangles' [<string name=\"triangles\" value=\"0 1 2\"/>]");
   EXPECT_EQ(error(with(Node("shape", "sphere").set("radius", std::numeric_limits<double>::quiet_NaN()))),

@@ -258,11 +258,12 @@ class Workshop {
 
   void tell(const FigureResult& result) const {
     if (arguments_.quiet) return;
-    print_note(fmt::format("{}: {} per pixel, {} per hit; {}, {}rays, {} Msamples/s, error {}", result.name,
-                           format_plural(result.spp, sampler_word(result.sampler) + " sample"),
-                           format_plural(result.shadow_rays, "shadow ray"), format_duration(result.statistics.seconds),
-                           format_count(static_cast<double>(result.rays())),
-                           format_digits(result.samples_per_second() / 1e6), format_percent(result.relative_error())));
+    print_note(fmt::format(
+        "{}: {} per pixel, {} per hit; {}, {}rays, {} Msamples/s, {} {}", result.name,
+        format_plural(result.spp, sampler_word(result.sampler) + " sample"),
+        format_plural(result.shadow_rays, "shadow ray"), format_duration(result.statistics.seconds),
+        format_count(static_cast<double>(result.rays())), format_digits(result.samples_per_second() / 1e6),
+        result.reference.empty() ? "own estimate of the error" : "error", format_percent(result.relative_error())));
   }
 
   const Arguments& arguments_;
@@ -324,7 +325,7 @@ Command figures_command() {
   command.footer =
       "Renders the hexagon room with 3 bounces at the settings of figures 5 to 13, each to PNG and EXR, measures\n"
       "every figure against a converged reference, finds out how many samples one shadow ray per hit needs to be as\n"
-      "right as figure 13, and shows all of it in DIR/index.html. Takes minutes, with --quick about half a minute.\n\n"
+      "right as figure 13, and shows all of it in DIR/index.html. Takes minutes, with --quick about one.\n\n"
       "Examples:\n"
       "  norrsken figures -o figures\n"
       "  norrsken figures -o /tmp/quick --quick --isa avx2";
