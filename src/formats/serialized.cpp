@@ -3,15 +3,14 @@
 //
 // Version 3 has no name in front of a mesh and 32-bit places in the dictionary.
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <new>
 
+#include "formats/inflater.h"
 #include "formats/mesh_complaints.h"
 #include "formats/mesh_flaws.h"
 #include "formats/mesh_readers.h"
@@ -40,60 +39,6 @@ T load(std::string_view bytes, std::size_t offset) {
   return value;
 }
 
-/// Bytes out of a zlib stream.
-class Inflater {
- public:
-  explicit Inflater(std::string_view deflated) : rest_(deflated) {
-    if (inflateInit(&stream_) != Z_OK) throw std::bad_alloc();
-  }
-  Inflater(const Inflater&) = delete;
-  Inflater& operator=(const Inflater&) = delete;
-  ~Inflater() { inflateEnd(&stream_); }
-
-  /// False if there are fewer, or they are damaged: see `problem`.
-  bool read(void* to, std::size_t count) {
-    constexpr std::size_t kStep = std::size_t{1} << 30;  // zlib counts with 32 bits
-    auto* at = static_cast<Bytef*>(to);
-    while (count > 0) {
-      const std::size_t want = std::min(count, kStep);
-      if (stream_.avail_in == 0) {
-        const std::size_t feed = std::min(rest_.size(), kStep);
-        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(rest_.data()));
-        stream_.avail_in = static_cast<uInt>(feed);
-        rest_.remove_prefix(feed);
-      }
-      stream_.next_out = at;
-      stream_.avail_out = static_cast<uInt>(want);
-      const int status = inflate(&stream_, Z_NO_FLUSH);
-      const std::size_t got = want - stream_.avail_out;
-      at += got;
-      count -= got;
-      if (status == Z_MEM_ERROR) throw std::bad_alloc();
-      if (count > 0 && status != Z_OK) {
-        if (status == Z_DATA_ERROR && stream_.msg != nullptr) problem_ = fmt::format("is damaged ({})", stream_.msg);
-        return false;
-      }
-    }
-    return true;
-  }
-  template <class T>
-  bool read(T& value) {
-    return read(&value, sizeof value);
-  }
-
-  /// Whether so many bytes can still come: deflate makes at most 1032 of one (zlib's manual).
-  bool may_have(std::uint64_t count, std::uint64_t size) const {
-    const std::uint64_t most = (rest_.size() + stream_.avail_in + 1) * 1032 + (std::uint64_t{1} << 16);
-    return count <= most / size;
-  }
-  const std::string& problem() const { return problem_; }
-
- private:
-  z_stream stream_{};
-  std::string_view rest_;
-  std::string problem_ = "ends early";
-};
-
 class SerializedReader {
  public:
   SerializedReader(std::string_view bytes, std::int64_t shape_index, MeshComplaints& complaints)
@@ -102,7 +47,7 @@ class SerializedReader {
   std::optional<MeshData> read() {
     const auto start = find_mesh();
     if (!start) return std::nullopt;
-    Inflater input(bytes_.substr(*start));
+    Inflater input(bytes_.substr(*start), Inflater::Wrapping::zlib);
     if (!read_mesh(input)) {
       if (!complaints_.any())
         complaints_.about_file(fmt::format("mesh {} {}", shape_index_, input.problem()),
@@ -145,12 +90,12 @@ class SerializedReader {
 
   bool read_mesh(Inflater& input) {
     std::uint32_t flags = 0;
-    if (!input.read(flags)) return false;
+    if (!input.fill(flags)) return false;
     for (char letter = 'a'; version_ == 4 && letter != '\0';) {
-      if (!input.read(letter)) return false;
+      if (!input.fill(letter)) return false;
     }
     std::uint64_t vertices = 0, triangles = 0;
-    if (!input.read(vertices) || !input.read(triangles)) return false;
+    if (!input.fill(vertices) || !input.fill(triangles)) return false;
     if (vertices == 0 || triangles == 0) {
       complaints_.flaw_at({}, MeshFlaw::no_faces,
                           fmt::format("mesh {} has no {}, nothing of it is drawn", shape_index_,
@@ -180,7 +125,7 @@ class SerializedReader {
 
   static constexpr double kMaxFloat = std::numeric_limits<float>::max();
 
-  bool may_have(const Inflater& input, std::uint64_t numbers) const { return input.may_have(numbers, number_bytes()); }
+  bool may_have(Inflater& input, std::uint64_t numbers) const { return input.may_have(numbers, number_bytes()); }
   std::size_t number_bytes() const { return is_double_ ? sizeof(double) : sizeof(float); }
 
   template <std::size_t N>
@@ -197,11 +142,11 @@ class SerializedReader {
       double block[1024];
       for (std::uint64_t at = 0; at < count;) {
         const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(count - at, std::size(block)));
-        if (!input.read(block, size * sizeof(double))) return false;
+        if (!input.fill(block, size * sizeof(double))) return false;
         for (std::size_t i = 0; i < size; ++i) into[at + i] = static_cast<float>(block[i]);
         at += size;
       }
-    } else if (!input.read(into, count * sizeof(float))) {
+    } else if (!input.fill(into, count * sizeof(float))) {
       return false;
     }
     for (std::uint64_t i = 0; i < count; ++i) {
@@ -221,7 +166,7 @@ class SerializedReader {
     constexpr std::size_t kTriangleBytes = 3 * sizeof(std::uint32_t);
     if (!input.may_have(triangles, kTriangleBytes)) return false;
     mesh_.triangles.resize(triangles);
-    if (!input.read(mesh_.triangles.data(), triangles * kTriangleBytes)) return false;
+    if (!input.fill(mesh_.triangles.data(), triangles * kTriangleBytes)) return false;
     for (std::uint64_t i = 0; i < triangles; ++i) {
       for (const std::uint32_t vertex : mesh_.triangles[i]) {
         if (vertex < vertices) continue;
