@@ -357,7 +357,7 @@ TEST(HostileXml, ThousandsOfErrorsAreCutShortQuickly) {
 
 TEST(HostileXml, BytesThatAreNoTextAreNamed) {
   EXPECT_EQ(first_message("<scene version=\"3.0.0\"><string name=\"\xFF\" value=\"\"/></scene>"),
-            "byte 0xff is not UTF-8");
+            "byte 0xff is not UTF-8: such bytes are read as windows-1252");
   EXPECT_EQ(first_message(std::string("<scene version=\"3.0.0\">\0</scene>", 32)), "the file contains a NUL byte");
   EXPECT_EQ(first_message(std::string("\xFF\xFE<\0s\0 ", 7)), "the file is UTF-16, but damaged or cut off");
 }

@@ -100,14 +100,28 @@ std::optional<std::string> utf8_of(std::string_view bytes, const std::string& en
   return good ? std::optional(std::move(text)) : std::nullopt;
 }
 
+char32_t in_windows_1252(unsigned char byte) {
+  return byte >= 0x80 && byte < 0xA0 ? kWindows1252[byte - 0x80] : char32_t{byte};
+}
+
 std::string utf8_of_single_bytes(std::string_view bytes, bool windows_1252) {
   std::string text;
   text.reserve(bytes.size() + bytes.size() / 8);
-  for (std::size_t at = 0; at < bytes.size(); ++at) {
-    const unsigned char byte = byte_at(bytes, at);
-    append_utf8(text, windows_1252 && byte >= 0x80 && byte < 0xA0 ? kWindows1252[byte - 0x80] : char32_t{byte});
-  }
+  for (std::size_t at = 0; at < bytes.size(); ++at)
+    append_utf8(text, windows_1252 ? in_windows_1252(byte_at(bytes, at)) : char32_t{byte_at(bytes, at)});
   return text;
+}
+
+/// UTF-8 with some bytes of windows-1252 in it, as it comes of pasting into files that nobody looks at as a whole.
+std::string with_windows_1252(std::string_view bytes) {
+  std::string text;
+  text.reserve(bytes.size() + bytes.size() / 8);
+  while (const auto invalid = find_invalid_utf8(bytes)) {
+    text += bytes.substr(0, *invalid);
+    append_utf8(text, in_windows_1252(byte_at(bytes, *invalid)));
+    bytes.remove_prefix(*invalid + 1);
+  }
+  return text += bytes;
 }
 
 // What <?xml ... encoding="NAME"?> says; empty if it does not.
@@ -167,16 +181,21 @@ bool decode_xml(std::string& contents, const std::string& path, Diagnostics& dia
       if (auto text = utf8_of(bytes, std::string(encoding))) contents = std::move(*text);
     }
   }
+  // Old editors end a file by a byte of their own.
+  contents.erase(contents.find_last_not_of("\0\x1A"sv) + 1);
   const auto invalid = find_invalid_utf8(contents);
   if (!invalid) return true;
   // Also where another encoding is declared: most have ASCII in common, and that is read.
   const std::string_view declared = declared_encoding(contents);
-  const bool is_other = !declared.empty() && !is_one_of(declared, {"UTF-8", "US-ASCII", "ASCII"});
-  diagnostics.error(SourceText(path, contents).location(*invalid),
-                    fmt::format("byte 0x{:02x} is not UTF-8{}", byte_at(contents, *invalid),
-                                is_other ? fmt::format(", and the encoding {} is not known", quoted(declared)) : ""),
-                    kAccepted);
-  return false;
+  const SourceLocation place = SourceText(path, contents).location(*invalid);
+  const std::string message = fmt::format("byte 0x{:02x} is not UTF-8", byte_at(contents, *invalid));
+  if (!declared.empty() && !is_one_of(declared, {"UTF-8", "US-ASCII", "ASCII"})) {
+    diagnostics.error(place, fmt::format("{}, and the encoding {} is not known", message, quoted(declared)), kAccepted);
+    return false;
+  }
+  diagnostics.warning(place, message + ": such bytes are read as windows-1252", kAccepted);
+  contents = with_windows_1252(contents);
+  return true;
 }
 
 }  // namespace norrsken

@@ -98,8 +98,22 @@ TEST(XmlEncoding, OthersAreRefusedAtTheirFirstByte) {
       "      |                           ^\n"
       "accepted: UTF-8, UTF-16, UTF-32, or what a first line <?xml version=\"1.0\" encoding=\"...\"?> names, such as "
       "ISO-8859-1");
-  EXPECT_EQ(decoded("<a b='\xE9'/>"), "error: byte 0xe9 is not UTF-8");
   EXPECT_EQ(decoded("<?xml encoding='ISO-8859-1'"), "<?xml encoding='ISO-8859-1'");
+}
+
+TEST(XmlEncoding, StrayBytesAreWindows1252) {
+  Diagnostics diagnostics;
+  std::string text = "<!-- caf\xE9 \x80 caf\xC3\xA9 -->\n<a/>";
+  EXPECT_TRUE(decode_xml(text, "room.xml", diagnostics));
+  EXPECT_EQ(text, "<!-- caf\xC3\xA9 \xE2\x82\xAC caf\xC3\xA9 -->\n<a/>");
+  ASSERT_EQ(diagnostics.all().size(), 1u);
+  EXPECT_EQ(diagnostics.all()[0].message, "byte 0xe9 is not UTF-8: such bytes are read as windows-1252");
+  EXPECT_EQ(diagnostics.all()[0].severity, Diagnostic::Severity::warning);
+}
+
+TEST(XmlEncoding, BytesThatEndAFileAreNoText) {
+  EXPECT_EQ(decoded(std::string("<a/>\n\x1A\0\0", 8)), "<a/>\n");
+  EXPECT_EQ(decoded(""), "");
 }
 
 TEST(XmlEncoding, PlacesAreThoseOfTheText) {
