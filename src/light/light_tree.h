@@ -50,7 +50,7 @@ NORRSKEN_INLINE LightNodes broadcast_light_node(const LightNode& node) {
 
 /// What bounds the lights of a node.
 struct LightCone {
-  Vec3f axis;
+  Vec3f axis;  ///< its length is 1 within ten bits: too few for narrow beams
   Angle normals;
   Float radius2, slope;
 };
@@ -88,7 +88,7 @@ NORRSKEN_INLINE Importance light_importance(const LightNodes& node, const Vec3f&
   const auto cosine_to = [&](const Vec3f& v) { return min(max(dot(v, from) * inverse, -one), one); };
   // sin^2 of the angle under which the bounds' radius is seen; 1 inside of them.
   const Float seen2 = min(cone.radius2 * inverse * inverse, one);
-  const Float cos_axis = cosine_to(cone.axis);
+  const Float cos_axis = cosine_to(cone.axis * (1.0f / sqrt(dot(cone.axis, cone.axis))));
   const Float cos_normals = less({cos_axis, sine_of(cos_axis)}, cone.normals).cos;
   const Float facing = mean_above(fnma(cone.slope, one - cos_normals, one), cone.slope * cone.slope * seen2);
   const Float sent = node.intensity * inverse * inverse * max(min(facing, one), kLeastFacing);

@@ -317,7 +317,7 @@ void expect_bounds(const LightNode& node, const LightNode& leaf) {
   const double distance = glm::length(doubles(leaf.center) - doubles(node.center));
   EXPECT_LE(distance, std::sqrt(double{outer.radius2.v}) * 1.0001);
   const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
-  const double between = angle(glm::dot(doubles(inner.axis), doubles(outer.axis)));
+  const double between = angle(glm::dot(glm::normalize(doubles(inner.axis)), glm::normalize(doubles(outer.axis))));
   const double reach = std::min(between + angle(double{inner.normals.cos.v}), M_PI);
   EXPECT_LE(reach, angle(double{outer.normals.cos.v}) + 1e-2) << "within what ten bits for a component tell";
   EXPECT_GE(inner.slope.v, outer.slope.v * 0.9999f);
