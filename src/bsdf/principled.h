@@ -1,6 +1,6 @@
 // Model       Disney's artist-friendly material: metal, plastic and glass in one, with sheen and a clear coat.
 // Measure     pdf_sa: cosine-weighted, from the clear coat's normals, and from visible normals with each facet's share of
-//             reflected light
+//             reflected light; each lobe as often as its part of what the viewer gets, by the reflectance head on to it
 // Source      Burley 2012 and 2015, see principled_lobes.h; microfacets: Walter et al. 2007, equations 20 and 21
 // Departures  none from Mitsuba 3: neither subsurface scattering nor absorption inside; sheen and clear coat may give back
 //             more than arrives; what has nothing diffuse (metallic or spec_trans 1) has no sheen; an interface that
@@ -23,7 +23,7 @@ struct Principled {
     Float roughness, metallic, spec_tint, sheen, sheen_tint, flatness, clearcoat;
     Float base, glass;                                  ///< weights of what is diffuse and what transmits
     Float eta;                                          ///< of the other side over this side
-    Float diffuse_prob, clearcoat_prob, specular_prob;  ///< of sampling each lobe
+    Float diffuse_rate, clearcoat_rate, specular_rate;  ///< factors on how often each lobe is sampled
     Mask front;                                         ///< else inside, where there are facets only
   };
 
@@ -50,12 +50,8 @@ struct Principled {
     const Float coat_alpha = mix(0.1f, 0.001f, r.get(&Stored::clearcoat_gloss));
     p.coat = {coat_alpha * coat_alpha};
     p.eta = r.get(&Stored::eta), p.front = r.get(&Stored::is_back) == 0.0f;
-    const Float behind = select(p.glass > 0.0f, Float(1.0f), 0.0f);
-    const Float diffuse = zero_unless(p.front, p.base * r.get(&Stored::diffuse_rate));
-    const Float specular = select(p.front, r.get(&Stored::specular_rate), behind);
-    const Float clearcoat = zero_unless(p.front, 0.25f * p.clearcoat * r.get(&Stored::clearcoat_rate));
-    const Float scale = 1.0f / max(diffuse + specular + clearcoat, 1e-20f);
-    p.diffuse_prob = diffuse * scale, p.specular_prob = specular * scale, p.clearcoat_prob = clearcoat * scale;
+    p.diffuse_rate = r.get(&Stored::diffuse_rate), p.clearcoat_rate = r.get(&Stored::clearcoat_rate);
+    p.specular_rate = select(p.front, r.get(&Stored::specular_rate), 1.0f);
     return p;
   }
 
@@ -64,29 +60,31 @@ struct Principled {
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const Parameters& p, const Vec3f& wo, const Vec3f& wi) {
-    return pdf_sa(p, wo, wi, facet_between(p, wo, wi));
+    return pdf_sa(p, lobe_probs(p, wo), wo, wi, facet_between(p, wo, wi));
   }
 
   static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float lobe, Vec2f direction) {
-    const Float above_coat = p.diffuse_prob + p.clearcoat_prob;
-    const Mask diffuse = lobe < p.diffuse_prob, clearcoat = (!diffuse) & (lobe < above_coat);
+    const LobeProbs probs = lobe_probs(p, wo);
+    const Float above_coat = probs.diffuse + probs.clearcoat;
+    const Mask diffuse = lobe < probs.diffuse, clearcoat = (!diffuse) & (lobe < above_coat);
     Vec3f m = p.facets.sample_visible(wo, direction);
     if (any(clearcoat)) m = select(clearcoat, p.coat.sample(direction), m);
     const Float cos_o = dot(wo, m);
     const FresnelDielectric fresnel = fresnel_dielectric(cos_o, p.eta);
-    const Float among_facets = (lobe - above_coat) / max(p.specular_prob, 1e-20f);
+    const Float among_facets = (lobe - above_coat) / max(probs.specular, 1e-20f);
     const Mask refracts = (!(diffuse | clearcoat)) & (among_facets < transmitted_share(p, fresnel.reflectance));
     Vec3f wi = select(refracts, refract(wo, m, cos_o, fresnel.cos_t, p.eta), reflect(wo, m, cos_o));
     wi = select(diffuse, warp_to_cosine_hemisphere(direction), wi);
 
     const Facet f = facet_between(p, wo, wi);
-    const Float pdf = pdf_sa(p, wo, wi, f);
+    const Float pdf = pdf_sa(p, probs, wo, wi, f);
     // Facets that face away may lead where another lobe has a density.
     const Mask valid = (pdf > 0.0f) & (diffuse | f.possible) & (refracts ^ (wi.z > 0.0f));
     return {wi, evaluate(p, wo, wi, f) * (1.0f / select(valid, pdf, 1.0f)), pdf, valid, select(refracts, p.eta, 1.0f)};
   }
 
   static NORRSKEN_INLINE Float refracted_eta(const Parameters& p) { return p.eta; }
+  static NORRSKEN_INLINE Mask transmits(const Parameters& p) { return p.glass > 0.0f; }
 
   static NORRSKEN_INLINE Color albedo(const Parameters& p) { return p.base_color; }
 
@@ -118,13 +116,36 @@ struct Principled {
     return select(p.front, p.glass, 1.0f) * (1.0f - reflectance);
   }
 
-  static NORRSKEN_INLINE Float pdf_sa(const Parameters& p, const Vec3f& wo, const Vec3f& wi, const Facet& f) {
+  struct LobeProbs {
+    Float diffuse, clearcoat, specular;
+  };
+
+  /// By what each lobe sends to the viewer, were all facets turned to the surface's normal.
+  static NORRSKEN_INLINE LobeProbs lobe_probs(const Parameters& p, const Vec3f& wo) {
+    const FresnelDielectric fresnel = fresnel_dielectric(wo.z, p.eta);
+    Facet flat;
+    flat.reflectance = fresnel.reflectance, flat.cos_t = fresnel.cos_t, flat.cos_o = wo.z;
+    const Float through = p.glass * (1.0f - flat.reflectance);
+    // Not less than of glass: towards the rim all facets reflect, also those of a metal that is black.
+    const Float outside = max(luminance(reflectance(p, flat)) + through, 0.04f);
+    const Float facets = select(p.front, outside, zero_unless(p.glass > 0.0f, 1.0f));
+    // Sheen is strongest where light grazes; a fifth of it is more than the mean anywhere but there.
+    const Float color = fma(p.sheen * (1.0f - p.metallic), 0.2f, luminance(p.base_color));
+    const Float coat = 0.25f * p.clearcoat * mix(schlick_weight(flat.cos_o, flat.cos_t, p.eta), 1.0f, 0.04f);
+    const Float diffuse = zero_unless(p.front, p.base * color * p.diffuse_rate);
+    const Float clearcoat = zero_unless(p.front, coat * p.clearcoat_rate), specular = facets * p.specular_rate;
+    const Float scale = 1.0f / max(diffuse + clearcoat + specular, 1e-20f);
+    return {diffuse * scale, clearcoat * scale, specular * scale};
+  }
+
+  static NORRSKEN_INLINE Float pdf_sa(const Parameters& p, const LobeProbs& probs, const Vec3f& wo, const Vec3f& wi,
+                                      const Facet& f) {
     const Float transmitted = transmitted_share(p, f.reflectance);
-    const Float share = p.specular_prob * select(f.reflects, 1.0f - transmitted, transmitted);
+    const Float share = probs.specular * select(f.reflects, 1.0f - transmitted, transmitted);
     Float facets = share * p.facets.visible_pdf_sa(wo, f.m);
-    const Mask coated = f.reflects & (p.clearcoat_prob > 0.0f);
-    if (any(coated)) facets += zero_unless(coated, p.clearcoat_prob * p.coat.density(f.m) * f.m.z);
-    const Float diffuse = zero_unless(wo.z > 0.0f, p.diffuse_prob * cosine_hemisphere_pdf_sa(wi.z));
+    const Mask coated = f.reflects & (probs.clearcoat > 0.0f);
+    if (any(coated)) facets += zero_unless(coated, probs.clearcoat * p.coat.density(f.m) * f.m.z);
+    const Float diffuse = zero_unless(wo.z > 0.0f, probs.diffuse * cosine_hemisphere_pdf_sa(wi.z));
     return zero_unless(f.possible & (facets > 0.0f), facets * f.jacobian) + diffuse;
   }
 

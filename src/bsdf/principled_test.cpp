@@ -140,6 +140,24 @@ TEST(Principled, MetalHasTheBaseColor) {
   EXPECT_NEAR(a.b.v / b.b.v, 0.2f, 1e-5f);
 }
 
+/// Were each lobe sampled as often as it sends light, all samples would weigh the same; by turns they do not nearly.
+TEST(Principled, SamplesItsLobesByWhatTheySend) {
+  const std::string lacquer = R"(<rgb name="base_color" value="0.8, 0.7, 0.6"/>)" + number("roughness", "0.3");
+  for (const std::string& more : {std::string(), number("clearcoat", "1"), number("metallic", "0.5")}) {
+    const auto sides = isa_host::load_bsdf("principled", lacquer + more);
+    double sum = 0, squares = 0;
+    constexpr int kSteps = 24;
+    for (int i = 0; i < kSteps * kSteps * kSteps; ++i) {
+      const auto u = [&](int k) { return (static_cast<float>(k % kSteps) + 0.5f) / static_cast<float>(kSteps); };
+      const isa_host::BsdfSample sample =
+          sides.front->sample(kOut, u(i), {Float(u(i / kSteps)), Float(u(i / kSteps / kSteps))});
+      const double weight = sample.valid.v ? double{sample.weight.g.v} : 0;
+      sum += weight, squares += weight * weight;
+    }
+    EXPECT_LT(squares * kSteps * kSteps * kSteps / (sum * sum) - 1, 0.2) << more;
+  }
+}
+
 TEST(PrincipledThin, DiffuseLightPassesInProportion) {
   const auto sheet = isa_host::load_bsdf("principledthin", number("base_color", "0.6") + number("diff_trans", "2"));
   const Vec3f through{kIn.x, kIn.y, -kIn.z};

@@ -94,6 +94,8 @@ struct PrincipledThin {
     return {wi, evaluate(p, wo, wi) * (1.0f / select(valid, pdf, 1.0f)), pdf, valid};
   }
 
+  static NORRSKEN_INLINE Mask transmits(const Parameters&) { return !Mask::none(); }
+
   static NORRSKEN_INLINE Color albedo(const Parameters& p) { return p.base_color; }
 
  private:

@@ -67,6 +67,7 @@ struct RoughDielectric {
   }
 
   static NORRSKEN_INLINE Float refracted_eta(const Parameters& p) { return p.eta; }
+  static NORRSKEN_INLINE Mask transmits(const Parameters&) { return !Mask::none(); }
 
   static NORRSKEN_INLINE Color albedo(const Parameters& p) { return p.specular_transmittance; }
 

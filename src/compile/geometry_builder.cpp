@@ -88,7 +88,7 @@ std::uint32_t GeometryBuilder::add(ShapeGeometry geometry, Material material) {
   switch (of) {
     case Class::triangles:
       add_triangles(std::move(geometry.mesh), material, box);
-      record.turned_below = record.smooth != 0 ? largest_turn(record.first_primitive) : -1;
+      if (record.smooth != 0) tell_turns(record.first_primitive);
       break;
     case Class::sphere:
       add_spheres(geometry.spheres, material, record, box);
@@ -174,20 +174,28 @@ void GeometryBuilder::add_triangles(MeshData mesh, Material material, Box& box) 
   }
 }
 
-float GeometryBuilder::largest_turn(std::size_t first_triangle) const {
-  const SceneTables& t = tables_;
-  double least = 1;
+void GeometryBuilder::tell_turns(std::size_t first_triangle) {
+  SceneTables& t = tables_;
+  const auto vector = [](const float* v) { return glm::dvec3(v[0], v[1], v[2]); };
   for (std::size_t i = first_triangle; i < t.surfaces.size(); ++i) {
+    const glm::dvec3 face = vector(t.surfaces[i].geometry);
+    glm::dvec3 corners[3];
+    double least = 1;
     for (std::size_t k = 0; k < 3; ++k) {
-      const float* normal = t.normals.data() + std::size_t{3} * t.triangle_vertices[3 * i + k];
-      const float* face = t.surfaces[i].geometry;
-      least =
-          std::min(least, glm::dot(glm::dvec3(normal[0], normal[1], normal[2]), glm::dvec3(face[0], face[1], face[2])));
+      const std::size_t vertex = std::size_t{3} * t.triangle_vertices[3 * i + k];
+      corners[k] = vector(&t.positions[vertex]);
+      least = std::min(least, glm::dot(vector(&t.normals[vertex]), face));
     }
+    // In a sliver rounding takes the place between the corners, and with it the normal, anywhere.
+    const glm::dvec3 a = corners[1] - corners[0], b = corners[2] - corners[0];
+    const double product = glm::dot(a, a) * glm::dot(b, b), between = glm::dot(a, b);
+    constexpr double kSliver = 1e-4;
+    const bool usable = least > 0 && product - between * between > kSliver * product;
+    // For what rounding does to normals, directions and weights.
+    constexpr double kReserve = 1e-3;
+    t.surfaces[i].turned_below =
+        static_cast<float>(usable ? std::sqrt(std::max(1 - least * least, 0.0)) + kReserve : 2);
   }
-  // For what rounding does to normals, directions and weights.
-  constexpr double kReserve = 1e-3;
-  return static_cast<float>(least > 0 ? std::sqrt(std::max(1 - least * least, 0.0)) + kReserve : 2);
 }
 
 void GeometryBuilder::set_light(std::uint32_t shape, std::uint32_t primitive, std::uint32_t light) {

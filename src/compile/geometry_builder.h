@@ -69,8 +69,8 @@ class GeometryBuilder {
   void add_spheres(const std::vector<ShapeGeometry::Sphere>& spheres, Material material, ShapeRecord& record, Box& box);
   void add_analytic(const AnalyticShape& analytic, Material material, Box& box);
   void add_triangles(MeshData mesh, Material material, Box& box);
-  /// ShapeRecord::turned_below of the triangles from this one on.
-  float largest_turn(std::size_t first_triangle) const;
+  /// Sets `turned_below` of the triangles from this one on, whose vertices have normals.
+  void tell_turns(std::size_t first_triangle);
   std::uint32_t next_shape() const { return static_cast<std::uint32_t>(tables_.shapes.size()); }
 
   SceneTables& tables_;

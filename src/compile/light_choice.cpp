@@ -84,7 +84,9 @@ void fill_alias_table(std::span<LightRecord> lights, std::span<const double> sha
 void choose_lights(SceneTables& tables, std::span<const LightPower> lights) {
   fill_alias_table(tables.lights, shares_of_choice(lights));
   const auto has_place = [](const LightPower& light) { return light.own > 0 && light.weight > 0; };
-  if (std::ranges::count_if(lights, has_place) >= std::ptrdiff_t{kLightTreeFrom}) build_light_tree(tables, lights);
+  const bool large = tables.surfaces.size() >= kLargeScene || !tables.instances.empty();
+  const std::size_t from = large ? 2 : kLightTreeFrom;
+  if (static_cast<std::size_t>(std::ranges::count_if(lights, has_place)) >= from) build_light_tree(tables, lights);
 }
 
 }  // namespace norrsken

@@ -57,8 +57,9 @@ void fill_alias_table(std::span<LightRecord> lights, std::span<const double> sha
 /// Fills `light_nodes`, `light_leaves` and `lights_around`, so that lights are chosen by place (src/light/light_tree.h).
 void build_light_tree(SceneTables& tables, std::span<const LightPower> lights);
 
-/// Of so many lights on, choosing by place is worth what it costs: see docs/performance.md.
-inline constexpr std::size_t kLightTreeFrom = 8;
+/// Of so many lights on, choosing by place is worth what it costs: see docs/performance.md. In large scenes, of instances
+/// or so many primitives, rays cost more than that, and two lights are enough.
+inline constexpr std::size_t kLightTreeFrom = 8, kLargeScene = 1000;
 
 /// What the scene's lights are chosen by: the alias table, and where points of surfaces choose among many, the tree.
 void choose_lights(SceneTables& tables, std::span<const LightPower> lights);

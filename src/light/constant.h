@@ -24,8 +24,8 @@ struct ConstantEnvironment {
     return emit_from_afar<ConstantEnvironment>(scene, light, position, direction, active);
   }
 
-  static NORRSKEN_INLINE Color radiance(const SceneView&, const Light& light, const Vec3f&, Mask) {
-    return light.emission;
+  static NORRSKEN_INLINE SeenLight seen(const SceneView&, const Light& light, const Vec3f&, Mask) {
+    return {light.emission, Float(0.25f * kInvPi)};
   }
 };
 

@@ -107,7 +107,9 @@ using Stored = isa_host::EnvmapEnvironment::Stored;
 glm::dvec3 write_map(const StoredImage& image, bool compensate, Array<float>& texels, Stored& stored) {
   const std::uint32_t first = float_texels(image, texels);
   const std::size_t width = image.width, rows = image.height - std::size_t{1};
-  const auto row_guide = static_cast<std::uint32_t>(std::bit_floor(rows)), column_guide = std::bit_floor(image.width);
+  // Memory is what finding a column costs: a guide to every fourth stays in the caches, and the rest stands together.
+  const auto row_guide = static_cast<std::uint32_t>(std::bit_floor(rows));
+  const std::uint32_t column_guide = std::max(std::bit_floor(image.width) / 4, 1u);
   const std::size_t columns_offset = rows + 1 + row_guide + 1, stride = width + 1 + column_guide + 1;
   const auto offset = static_cast<std::uint32_t>(texels.size());
   texels.resize(texels.size() + columns_offset + rows * stride);

@@ -57,16 +57,23 @@ struct EnvmapEnvironment {
     const Float next = column + 1.0f;
     const UInt columns[2] = {to_uint(column), to_uint(select(next < Float(width), next, 0.0f))};
     const auto share = [](int k) { return Float(static_cast<float>(kSrgbLuminance[k])); };
+    UInt at[2][2];
+    for (int r = 0; r < 2; ++r) {
+      const UInt first = to_uint(row + Float(static_cast<float>(r))) * UInt(map.column.cells);
+      for (int c = 0; c < 2; ++c) at[r][c] = (first + columns[c]) * 3u;
+    }
     Patch patch;
+    // Component by component: the memory of all four is asked for before anything waits for one.
+    for (int k = 0; k < 4; ++k) patch.color[k / 2][k % 2].r = gather(map.texels, at[k / 2][k % 2], active);
+    for (int k = 0; k < 4; ++k) patch.color[k / 2][k % 2].g = gather(map.texels + 1, at[k / 2][k % 2], active);
+    for (int k = 0; k < 4; ++k) patch.color[k / 2][k % 2].b = gather(map.texels + 2, at[k / 2][k % 2], active);
     for (int r = 0; r < 2; ++r) {
       const Float y = row + Float(static_cast<float>(r));
       const Float inside = min(max(y, 0.25f), Float(last_row - 0.25f));
       const Float sine = sin_cos_turns(inside * Float(0.5f / last_row)).sin;
-      const UInt first = to_uint(y) * UInt(map.column.cells);
       for (int c = 0; c < 2; ++c) {
-        const Color color = gather_color(map.texels, (first + columns[c]) * 3u, active);
+        const Color& color = patch.color[r][c];
         const Float luminance = fma(color.r, share(0), fma(color.g, share(1), color.b * share(2)));
-        patch.color[r][c] = color;
         patch.weight[r][c] = max(luminance - Float(map.darkest), 0.0f) * sine;
       }
     }
@@ -150,17 +157,16 @@ struct EnvmapEnvironment {
     return {load_patch(map, wrapped, row, active), {u - column, v - row}, sin_theta};
   }
 
-  static NORRSKEN_INLINE Float pdf_sa(const SceneView& scene, const Light& light, const Vec3f&, const Vec3f& direction,
-                                      Float, Mask active) {
+  static NORRSKEN_INLINE SeenLight seen(const SceneView& scene, const Light& light, const Vec3f& direction,
+                                        Mask active) {
     const Map map = load(scene);
     const Place place = look_up(map, light, direction, active);
-    return density(map, place.patch, place.at, place.sin_theta);
+    return {light.emission * mix(place.patch.color, place.at), density(map, place.patch, place.at, place.sin_theta)};
   }
 
-  static NORRSKEN_INLINE Color radiance(const SceneView& scene, const Light& light, const Vec3f& direction,
-                                        Mask active) {
-    const Place place = look_up(load(scene), light, direction, active);
-    return light.emission * mix(place.patch.color, place.at);
+  static NORRSKEN_INLINE Float pdf_sa(const SceneView& scene, const Light& light, const Vec3f&, const Vec3f& direction,
+                                      Float, Mask active) {
+    return seen(scene, light, direction, active).pdf_sa;
   }
 
   static NORRSKEN_INLINE EmittedRay emit(const SceneView& scene, const Light& light, Vec2f position, Vec2f direction,

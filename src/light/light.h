@@ -5,7 +5,7 @@
 //   static Float pdf_sa(const SceneView&, const Light&, const Vec3f& reference, const Vec3f& direction,
 //                       Float distance, Mask active);
 // and, if rays to nowhere see it,
-//   static Color radiance(const SceneView&, const Light&, const Vec3f& direction, Mask active);
+//   static SeenLight seen(const SceneView&, const Light&, const Vec3f& direction, Mask active);
 // Where lights are many they are chosen by place: light/light_tree.h.
 // Such lights put their sampled point two scene radii away, behind everything.
 // For paths that start at the lights (src/light/emit.h):
@@ -34,6 +34,12 @@ struct LightSample {
   Float pdf_sa;  ///< 1 for a delta light, whose `radiance` has the falloff in it
   Color radiance;
   Mask valid;  ///< false: this side does not emit
+};
+
+/// What lies in a direction, and the density with which that is sampled.
+struct SeenLight {
+  Color radiance;
+  Float pdf_sa;
 };
 
 NORRSKEN_INLINE Light broadcast_light(const LightRecord& r) {

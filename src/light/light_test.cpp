@@ -139,7 +139,7 @@ TEST(EnvmapEnvironment, LooksAlongTheDocumentedAxes) {
   // Rows stand on the poles; columns are centred on their share of a turn, the middle of the image is -z.
   const LitScene scene(kEnvmap + R"(<float name="scale" value="2"/></emitter>)", light_files());
   const auto seen = [&](const glm::dvec3& d) {
-    return double{environment_radiance(scene.view, lanes(glm::normalize(d)), kOn).r.v};
+    return double{environment_seen(scene.view, lanes(glm::normalize(d)), kOn).radiance.r.v};
   };
   EXPECT_NEAR(seen({0, 1, 1e-6}), environment_texel(3, 0) + environment_texel(4, 0),
               1e-2);  // any column, in between; see below for texels
@@ -162,7 +162,9 @@ TEST(EnvmapEnvironment, CompensationLeavesTheDarkToOthersAndLosesNothing) {
   const auto pdf = [&](const LitScene& scene, const glm::dvec3& d) {
     return double{light_pdf_sa(scene.view, UInt(0u), lanes(kReference), lanes(d), 1.0f, kOn).v};
   };
-  const auto seen = [&](const glm::dvec3& d) { return double{environment_radiance(plain.view, lanes(d), kOn).r.v}; };
+  const auto seen = [&](const glm::dvec3& d) {
+    return double{environment_seen(plain.view, lanes(d), kOn).radiance.r.v};
+  };
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> unit(0, 1 - 1e-7);
   const auto direction = [&] {
@@ -213,7 +215,7 @@ TEST(EnvmapEnvironment, ItsMeanRadianceIsItsPower) {
   for (int i = 0; i < kGrid; ++i) {
     for (int k = 0; k < kGrid; ++k) {
       const double y = (i + 0.5) / kGrid * 2 - 1, r = std::sqrt(1 - y * y), phi = (k + 0.5) / kGrid * kPi2;
-      mean += double{environment_radiance(scene.view, lanes({r * std::cos(phi), y, r * std::sin(phi)}), kOn).r.v} /
+      mean += double{environment_seen(scene.view, lanes({r * std::cos(phi), y, r * std::sin(phi)}), kOn).radiance.r.v} /
               (kGrid * kGrid);
     }
   }

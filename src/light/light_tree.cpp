@@ -6,6 +6,7 @@
 //             all normals do not make lights that shine elsewhere brighter; the bounds' squared diagonal stands in place of their surface, which is 0 for lights in a row
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -87,6 +88,16 @@ double cost(const Cluster& b) {
   return b.power > 0 ? b.power * orientation_measure(b) * glm::dot(size, size) : 0;
 }
 
+/// Of [0, 1], in steps of 1 / last.
+std::uint32_t in_steps(double value, double last) {
+  return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 1.0) * last));
+}
+
+/// The upper half of a float not below the value.
+std::uint32_t upper_half(double value) {
+  return (std::bit_cast<std::uint32_t>(static_cast<float>(value)) + 0xffffu) & 0xffff0000u;
+}
+
 class TreeBuilder {
  public:
   TreeBuilder(SceneTables& tables, Array<Cluster> bounds, Array<std::uint32_t> lights)
@@ -141,13 +152,10 @@ class TreeBuilder {
     LightNode node{};
     for (int i = 0; i < 3; ++i) {
       node.center[i] = static_cast<float>(center[i]);
-      node.axis[i] = static_cast<float>(b.axis[i]);
+      node.axis |= in_steps((b.axis[i] + 1) / 2, 1022) << 10 * i;
     }
-    node.radius2 = static_cast<float>(radius2);
-    node.cos_normals = static_cast<float>(std::cos(b.normals));
-    node.sin_normals = static_cast<float>(std::sin(b.normals));
-    node.slope = static_cast<float>(1 / (1 - dark));
-    node.shift = static_cast<float>(dark / (1 - dark));
+    node.normals = in_steps((std::cos(b.normals) + 1) / 2, 65535) | in_steps(std::sin(b.normals), 65535) << 16;
+    node.extent = upper_half(radius2) | upper_half(1 / (1 - dark)) >> 16;
     // The lights' power, as if all shone alike, into where they face; in units of the whole, which stay in a float's
     // range at any scale.
     const double power = (1 - kEven) * b.power / total_ + kEven * b.weight / total_weight_;

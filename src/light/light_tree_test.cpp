@@ -113,16 +113,43 @@ TEST_P(ManyLights, AreChosenAsOftenAsTheirProbabilitySays) {
     std::vector<double> chosen(count());
     for (int i = 0; i < kSamples; ++i) {
       const Vec2f u{float(uniform(random)), float(uniform(random))};
-      const PickedLight picked = pick_light_by_place(scene_.view, lanes(p), u, kOn);
+      const PickedLight picked = pick_light_by_place(scene_.view, lanes(p), any_receiver(), u, kOn);
       ++chosen.at(picked.light.v);
       if (i < 1000) {
         EXPECT_NEAR(double{picked.prob.v} / prob(picked.light.v, p), 1, 1e-5);
+        EXPECT_EQ(picked.prob.v, picked.weight_prob.v);
       }
     }
     std::vector<double> probs;
     for (std::uint32_t i = 0; i < count(); ++i) probs.push_back(prob(i, p));
     EXPECT_TRUE(test.chi_square(statistics::cells_of_counts(chosen, probs), {"light", ""},
                                 fmt::format("lights chosen at {}, {}, {}", p.x, p.y, p.z)));
+  }
+}
+
+/// Lights below the surface are hardly chosen; of all lights nothing is lost.
+TEST_P(ManyLights, AreChosenForWhatASurfaceTakes) {
+  std::mt19937_64 random(6);
+  for (const glm::dvec3& p : {glm::dvec3(0.2, 0.1, -0.3), glm::dvec3(-2, 1, 3)}) {
+    const Receiver receivers[2] = {any_receiver(), {lanes(glm::normalize(glm::dvec3(1, 2, -1))), 0.05f}};
+    double below[2] = {}, shares[2] = {}, squares = 0;
+    constexpr int kSamples = 100'000;
+    for (int i = 0; i < kSamples; ++i) {
+      const Vec2f u{float(uniform(random)), float(uniform(random))};
+      for (int k = 0; k < 2; ++k) {
+        const PickedLight picked = pick_light_by_place(scene_.view, lanes(p), receivers[k], u, kOn);
+        const double share = double{picked.weight_prob.v} / double{picked.prob.v};
+        shares[k] += share / kSamples;
+        if (k == 1) squares += share * share / kSamples;
+        if (scene_.view.light_leaves[picked.light.v] == kNone) continue;
+        const glm::dvec3 to_light = doubles(scene_.view.lights[picked.light.v].origin) - p;
+        if (glm::dot(to_light, doubles(receivers[1].normal)) < -0.5) ++below[k];
+        if (i < 300) EXPECT_NEAR(double{picked.weight_prob.v} / prob(picked.light.v, p), 1, 1e-5);
+      }
+    }
+    EXPECT_NEAR(shares[0], 1, 1e-6);
+    EXPECT_NEAR(shares[1], 1, 5 * std::sqrt((squares - shares[1] * shares[1]) / kSamples));
+    EXPECT_LT(below[1], 0.25 * below[0]);
   }
 }
 
@@ -147,9 +174,9 @@ TEST_P(ManyLights, HaveTheDensityThatTheyAreSampledWith) {
   for (int i = 0; i < 12'000; ++i) {
     const glm::dvec3 p = anywhere(random, 6);
     const Vec2f pick{float(uniform(random)), float(uniform(random))}, u{float(uniform(random)), float(uniform(random))};
-    const LightChoice choice = sample_one_light(scene_.view, lanes(p), pick, u, kOn);
+    const LightChoice choice = sample_one_light(scene_.view, lanes(p), any_receiver(), pick, u, kOn);
     if (!choice.sample.valid.v || choice.delta.v) continue;
-    const PickedLight picked = pick_light_by_place(scene_.view, lanes(p), pick, kOn);
+    const PickedLight picked = pick_light_by_place(scene_.view, lanes(p), any_receiver(), pick, kOn);
     const glm::dvec3 to_light = doubles(choice.sample.point) - p;
     const Float pdf = light_pdf_sa(scene_.view, picked.light, lanes(p), lanes(glm::normalize(to_light)),
                                    float(glm::length(to_light)), kOn);
@@ -178,7 +205,8 @@ TEST_P(ManyLights, AreChosenWhereTheyMatter) {
       double sent = 0;  // the mean of a few points of the light
       for (int n = 0; n < 8; ++n) {
         const Vec2f u{float(uniform(random)), float(uniform(random))};
-        const LightChoice choice = sample_one_of_many_lights(one, lanes(p), {Float(0.0f), Float(0.0f)}, u, kOn);
+        const LightChoice choice =
+            sample_one_of_many_lights(one, lanes(p), any_receiver(), {Float(0.0f), Float(0.0f)}, u, kOn);
         if (choice.sample.valid.v) sent += double{choice.sample.radiance.g.v} / double{choice.sample.pdf_sa.v} / 8;
       }
       by_place += sent * sent / prob(k, p);
@@ -269,24 +297,30 @@ TEST(LightTree, LightsInOnePlaceShareByIntensity) {
 }
 
 TEST(LightTree, IsWorthItForManyLights) {
-  const auto nodes = [](std::size_t lights, const std::string& integrator) {
-    std::string elements = integrator;
+  const auto nodes = [](std::size_t lights, const std::string& others) {
+    std::string elements = others;
     for (std::size_t i = 0; i < lights; ++i) elements += R"(<emitter type="point"/>)";
     return LitScene(elements).compiled.tables().light_nodes.size();
   };
   EXPECT_EQ(nodes(kLightTreeFrom - 1, ""), 0u);
   EXPECT_EQ(nodes(kLightTreeFrom, ""), 2 * kLightTreeFrom - 1);
+  std::string curtain;
+  for (std::size_t i = 0; i < kLargeScene / 2; ++i) curtain += R"(<shape type="rectangle"/>)";
+  EXPECT_EQ(nodes(2, curtain), 3u) << "where rays cost more";
+  EXPECT_EQ(nodes(1, curtain), 0u);
   EXPECT_EQ(nodes(kLightTreeFrom, R"(<integrator type="ptracer"/>)"), 2 * kLightTreeFrom - 1)
       << "whatever the integrator: the scene may be looked at with another one";
 }
 
 void expect_bounds(const LightNode& node, const LightNode& leaf) {
+  const LightCone outer = light_cone(broadcast_light_node(node)), inner = light_cone(broadcast_light_node(leaf));
   const double distance = glm::length(doubles(leaf.center) - doubles(node.center));
-  EXPECT_LE(distance, std::sqrt(double{node.radius2}) * 1.0001);
-  const double between = std::acos(std::clamp(glm::dot(doubles(leaf.axis), doubles(node.axis)), -1.0, 1.0));
-  const double reach = std::min(between + std::acos(double{leaf.cos_normals}), M_PI);
-  EXPECT_LE(reach, std::acos(double{node.cos_normals}) + 2e-3);
-  EXPECT_GE(leaf.slope, node.slope * 0.9999f);
+  EXPECT_LE(distance, std::sqrt(double{outer.radius2.v}) * 1.0001);
+  const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
+  const double between = angle(glm::dot(glm::normalize(doubles(inner.axis)), glm::normalize(doubles(outer.axis))));
+  const double reach = std::min(between + angle(double{inner.normals.cos.v}), M_PI);
+  EXPECT_LE(reach, angle(double{outer.normals.cos.v}) + 1e-2) << "within what ten bits for a component tell";
+  EXPECT_GE(inner.slope.v, outer.slope.v * 0.9999f);
 }
 
 TEST(LightTree, NodesBoundWhatIsBelow) {

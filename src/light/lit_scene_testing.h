@@ -51,7 +51,9 @@ struct LitScene {
   }
   const LightRecord& light() const { return view.lights[0]; }
   LightSample sample(const glm::dvec3& reference, double u, double v) const {
-    return sample_one_light(view, lanes(reference), {Float(0.0f), Float(0.0f)}, {float(u), float(v)}, kOn).sample;
+    return sample_one_light(view, lanes(reference), any_receiver(), {Float(0.0f), Float(0.0f)}, {float(u), float(v)},
+                            kOn)
+        .sample;
   }
   /// The irradiance that a delta light sends to a point of a plane with this normal.
   double irradiance(const glm::dvec3& point, const glm::dvec3& normal) const {

@@ -9,8 +9,9 @@ namespace norrsken::NORRSKEN_ISA {
 
 struct LightChoice {
   LightSample sample;
-  Float prob;  ///< of the light
-  Mask delta;  ///< a point or a direction: no other way of sampling finds it
+  Float prob;         ///< of the light
+  Float weight_prob;  ///< what a ray that finds the light by itself reckons with in its place
+  Mask delta;         ///< a point or a direction: no other way of sampling finds it
 };
 
 NORRSKEN_INLINE LightSample select(Mask m, const LightSample& a, const LightSample& b) {
@@ -34,18 +35,19 @@ NORRSKEN_INLINE void add_light_kind(LightKind kind, bool is_delta, const SceneVi
 
 /// Not inlined: every BSDF would repeat the code of every kind of light.
 __attribute__((noinline)) inline LightChoice sample_one_of_many_lights(const SceneView& scene, Vec3f reference,
-                                                                       Vec2f pick, Vec2f u, Mask active) {
+                                                                       Receiver receiver, Vec2f pick, Vec2f u,
+                                                                       Mask active) {
   const Mask never = Mask::none();
   PickedLight picked;
   if (scene.light_nodes != nullptr) {
-    picked = pick_light_by_place(scene, reference, pick, active);
+    picked = pick_light_by_place(scene, reference, receiver, pick, active);
   } else {
     picked.light = pick_light(scene, pick, active);
-    picked.prob = light_prob(scene, picked.light, active);
+    picked.prob = picked.weight_prob = light_prob(scene, picked.light, active);
   }
   const UInt light = picked.light;
   const UInt kinds = gather_light_kind(scene, light, active);
-  LightChoice choice{{reference, 1.0f, black(), never}, picked.prob, never};
+  LightChoice choice{{reference, 1.0f, black(), never}, picked.prob, picked.weight_prob, never};
 #define NORRSKEN_LIGHT(kind, Model, is_delta)                                  \
   if (scene.light_kinds & (1u << static_cast<std::uint32_t>(LightKind::kind))) \
     add_light_kind<Model>(LightKind::kind, is_delta, scene, light, kinds, reference, u, active, choice);
@@ -54,24 +56,31 @@ __attribute__((noinline)) inline LightChoice sample_one_of_many_lights(const Sce
   return choice;
 }
 
-/// `pick` chooses the light, `u` the point on it. The one parallelogram or point of a simple scene is sampled in place.
+/// `pick` chooses the light, for what the receiver may take of it; `u` the point on it. The one parallelogram or point of a simple scene is sampled in place.
 template <class Scene>
-NORRSKEN_INLINE LightChoice sample_one_light(const Scene& scene, const Vec3f& reference, Vec2f pick, Vec2f u,
-                                             Mask active) {
+NORRSKEN_INLINE LightChoice sample_one_light(const Scene& scene, const Vec3f& reference, const Receiver& receiver,
+                                             Vec2f pick, Vec2f u, Mask active) {
   if (scene.light_count == 1) {
     const Mask never = Mask::none();
     const LightRecord& record = scene.lights[0];
     if (record.kind == LightKind::parallelogram) {
-      return {FlatAreaLight<false>::sample(scene, broadcast_light(record), reference, u, active), 1.0f, never};
+      return {FlatAreaLight<false>::sample(scene, broadcast_light(record), reference, u, active), 1.0f, 1.0f, never};
     }
     if (record.kind == LightKind::point) {
-      return {PointLight::sample(scene, broadcast_light(record), reference, u, active), 1.0f, !never};
+      return {PointLight::sample(scene, broadcast_light(record), reference, u, active), 1.0f, 1.0f, !never};
     }
   }
-  return sample_one_of_many_lights(scene, copied(reference), pick, u, active);
+  return sample_one_of_many_lights(scene, copied(reference), {copied(receiver.normal), receiver.least}, pick, u,
+                                   active);
 }
 
-/// The density with which `sample_one_light` finds the point `distance` along `direction`, which lies on `light`.
+/// The probability with which `sample_one_light` chooses the light for any_receiver().
+NORRSKEN_INLINE Float light_share(const SceneView& scene, UInt light, const Vec3f& reference, Mask active) {
+  if (scene.light_nodes != nullptr) return light_prob_by_place(scene, light, copied(reference), active);
+  return light_prob(scene, light, active);
+}
+
+/// The density with which `sample_one_light` finds for any_receiver() the point `distance` along `direction`, which lies on `light`.
 inline Float light_pdf_sa(const SceneView& scene, UInt light, Vec3f reference, Vec3f direction, Float distance,
                           Mask active) {
   const UInt kinds = gather_light_kind(scene, light, active);
@@ -85,22 +94,21 @@ inline Float light_pdf_sa(const SceneView& scene, UInt light, Vec3f reference, V
   }
 #include "lists/light.def"
 #undef NORRSKEN_LIGHT
-  if (scene.light_nodes != nullptr) return pdf * light_prob_by_place(scene, light, reference, active);
-  return pdf * light_prob(scene, light, active);
+  return pdf * light_share(scene, light, reference, active);
 }
 
-/// What a ray to nowhere sees: the scene's environment.
-inline Color environment_radiance(const SceneView& scene, Vec3f direction, Mask active) {
+/// What a ray to nowhere sees: the scene's environment. The density does not count the choice of the light.
+inline SeenLight environment_seen(const SceneView& scene, Vec3f direction, Mask active) {
   const LightRecord& record = scene.lights[scene.environment];
   const Light light = broadcast_light(record);
   switch (record.kind) {
 #define NORRSKEN_ENVIRONMENT(kind, Model) \
   case LightKind::kind:                   \
-    return Model::radiance(scene, light, direction, active);
+    return Model::seen(scene, light, direction, active);
 #include "lists/environment.def"
 #undef NORRSKEN_ENVIRONMENT
     default:
-      return black();
+      return {black(), 0.0f};
   }
 }
 

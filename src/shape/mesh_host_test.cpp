@@ -76,12 +76,22 @@ TEST(MeshShape, TextureCoordinatesThatAFileDoesNotGiveGoByItsOrderOfCorners) {
 TEST(MeshShape, KnowsHowFarItsNormalsTurn) {
   const auto turned_below = [](const std::string& normal) {
     const std::string obj = "v 0 0 2\nv 1 0 2\nv 0 1 2\nvn 0 0 1\nvn " + normal + "\nf 1//1 2//2 3//1\n";
-    return compile_shape(mesh("a.obj"), {{"a.obj", obj}}).tables().shapes.at(0).turned_below;
+    return compile_shape(mesh("a.obj"), {{"a.obj", obj}}).tables().surfaces.at(0).turned_below;
   };
   EXPECT_NEAR(turned_below("0.6 0 0.8"), 0.6f, 2e-3f);
   EXPECT_GE(turned_below("0.6 0 0.8"), 0.6f);
   EXPECT_GT(turned_below("1 0 -0.5"), 1);
   EXPECT_LT(turned_below("0 0 1"), 0) << "flat";
+}
+
+TEST(MeshShape, KnowsItOfEachTriangle) {
+  const std::string obj =
+      "v 0 0 2\nv 1 0 2\nv 0 1 2\nv 1 1 2\nv 1 1e-3 2\nvn 0 0 1\nvn 0.6 0 0.8\n"
+      "f 1//1 2//1 3//1\nf 2//1 4//1 3//2\nf 1//1 2//1 5//1\n";
+  const Compiled c = compile_shape(mesh("a.obj"), {{"a.obj", obj}});
+  EXPECT_NEAR(c.tables().surfaces.at(0).turned_below, 0, 2e-3f);
+  EXPECT_NEAR(c.tables().surfaces.at(1).turned_below, 0.6f, 2e-3f);
+  EXPECT_GT(c.tables().surfaces.at(2).turned_below, 1) << "in a sliver the normal may be anything";
 }
 
 TEST(MeshShape, ReadsPly) {

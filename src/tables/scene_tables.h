@@ -87,7 +87,11 @@ struct SurfaceRecord {
   MaterialWord material_front;  ///< for rays that come from the side the normal points to; with kEmitsBit on lights
   MaterialWord material_back;
   std::uint32_t shape;  ///< index into `shapes`
+  /// Triangle: sine of the largest angle between its normal and those of its vertices; above 1 if one is of more than 90
+  /// degrees, below 0 if they have none. Rays whose cosine is larger see the same side by both.
+  float turned_below = -1;
 };
+static_assert(sizeof(SurfaceRecord) == 32, "none lies across two cache lines");
 static_assert(offsetof(SurfaceRecord, material_back) == offsetof(SurfaceRecord, material_front) + sizeof(MaterialWord),
               "kernels find the word of a side as the first or second of two");
 
@@ -108,9 +112,6 @@ struct ShapeRecord {
   std::uint32_t group = kNone;              ///< the group it is in, or kNone for the world
   std::uint32_t lights = kNone;             ///< where its primitives begin in `primitive_lights`; kNone: no light
   Variation variation = Variation::none;    ///< for the host alone
-  /// Sine of the largest angle between the normals of a triangle and of its vertices; above 1 if one is of more than 90
-  /// degrees, below 0 without normals. Rays whose cosine is larger see the same side by both.
-  float turned_below = 2;
 };
 
 /// Where something with a space of its own stands. Affine maps, row by row; the fourth of each row is the translation.
@@ -166,11 +167,12 @@ inline constexpr std::uint32_t kLightLeafBit = 0x80000000u;
 /// Gathered field by field. Node 0 is the root; siblings stand side by side, the left one first.
 struct LightNode {
   float center[3];
-  float radius2;  ///< of a sphere around them, squared
-  float axis[3];  ///< unit; of a cone that holds all normals
-  float cos_normals, sin_normals;
-  float slope, shift;     ///< slope cos(angle) - shift: 1 along a normal, 0 where emission ends
   float intensity;        ///< where they face, in units of the whole
+  std::uint32_t axis;     ///< of a cone that holds all normals: its components from -1 to 1 in ten bits each
+  std::uint32_t normals;  ///< cosine (-1 to 1, the lower half) and sine (0 to 1) of the cone's angle
+  /// The upper halves of two floats: the radius squared of a sphere around the lights, and in the lower half the slope:
+  /// 1 - slope (1 - cos(angle)) is 1 along a normal and 0 where emission ends.
+  std::uint32_t extent;
   std::uint32_t content;  ///< the left child; or with kLightLeafBit the one light
   std::uint32_t parent;
 };

@@ -6,6 +6,8 @@
 // EXPOSURE and GAMMA are not heeded, as in Mitsuba.
 #include "texture/bitmap.h"
 
+#include <algorithm>
+
 #include "compile/images.h"
 #include "compile/textures.h"
 #include "texture/texture_host.h"
@@ -52,16 +54,19 @@ Texture compile_texture_bitmap(Parameters& p, Textures& textures) {
   const isa_host::ToUvSlots to_uv = to_uv_slots(p.read(kToUv));
   const auto image = textures.images().of(p, kFilename, raw);
   if (!image) return {};
+  const isa_host::ToUvSlots unchanged{{{1, 0, 0}, {0, 1, 0}}};
+  const bool mapped = !std::equal(&to_uv.rows[0][0], &to_uv.rows[0][0] + 6, &unchanged.rows[0][0]);
+  using Bitmap = isa_host::Bitmap;
+  const std::uint32_t flags =
+      (wrap_u + 4 * wrap_v) << Bitmap::kWrapShift | (nearest ? Bitmap::kNearest : 0) | (mapped ? Bitmap::kMapped : 0);
   // With tools of their own: `clamped` is called when those of this call are gone.
-  auto texture_of = [textures, to_uv, wrap_u, wrap_v, nearest](const StoredImage& stored) mutable {
-    return Texture{textures.add(isa_host::Bitmap::Stored{.to_uv = to_uv,
-                                                         .width = static_cast<float>(stored.width),
-                                                         .height = static_cast<float>(stored.height),
-                                                         .texels = stored.texels,
-                                                         .stride = stored.stride,
-                                                         .table = stored.table,
-                                                         .wrap_modes = wrap_u + 4 * wrap_v,
-                                                         .nearest = nearest ? 1u : 0u}),
+  auto texture_of = [textures, to_uv, flags](const StoredImage& stored) mutable {
+    return Texture{textures.add(Bitmap::Stored{.to_uv = to_uv,
+                                               .width = static_cast<float>(stored.width),
+                                               .height = static_cast<float>(stored.height),
+                                               .texels = stored.texels,
+                                               .table = stored.table,
+                                               .flags = flags | stored.stride}),
                    stored.mean,
                    stored.min,
                    stored.max,

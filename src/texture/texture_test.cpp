@@ -9,6 +9,7 @@
 
 #include "base/aligned.h"
 #include "isa/entry.h"
+#include "texture/bitmap.h"
 #include "texture/texture_testing.h"
 
 namespace norrsken {
@@ -108,10 +109,13 @@ struct TestImage {
       }
     }
     texels.resize(texels.size() + 5, 1e9f);
-    parameters = std::move(to_uv);
+    using isa_host::Bitmap;
     const std::uint32_t stride = layout == kPacked ? 0 : layout == kColor ? 3 : 1;
-    for (const float value : {float(kWidth), float(kHeight), word(first), word(stride), word(5),
-                              word(wrap.u + 4 * wrap.v), word(nearest ? 1 : 0)})
+    const bool mapped = to_uv != std::vector<float>{1, 0, 0, 0, 1, 0};
+    const std::uint32_t flags = stride | (wrap.u + 4u * wrap.v) << Bitmap::kWrapShift |
+                                (nearest ? Bitmap::kNearest : 0u) | (mapped ? Bitmap::kMapped : 0u);
+    parameters = std::move(to_uv);
+    for (const float value : {float(kWidth), float(kHeight), word(first), word(5), word(flags)})
       parameters.push_back(value);
   }
 };

@@ -3,13 +3,14 @@
 
 #include "camera/camera.h"
 #include "wave/hits.h"
+#include "wave/plain_scene.h"
 #include "wave/slots.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
 /// Those of the active lanes whose ray comes from the back of the shading normal. Not inlined: few scenes need it.
 __attribute__((noinline)) inline Mask back_of_shading(const SceneView& scene, Hit hit, Mask active) {
-  return active & (make_surface_point(scene, hit, active).side < 0.0f);
+  return active & (make_surface_point(NormalsAlone(scene), hit, active).side < 0.0f);
 }
 
 /// The lanes whose ray may come from another side of the shading normal than of the geometric one.
@@ -18,8 +19,7 @@ NORRSKEN_INLINE Mask may_be_turned(const SceneView& scene, const Hit& hit, Mask 
   if (scene.first_analytic != kNone) found = active & !below(hit.primitive, scene.first_analytic);
   if (!scene.any_smooth) return found;
   const Mask triangle = active & below(hit.primitive, scene.triangle_count);
-  const UInt shape = shape_of(scene, hit.primitive, triangle);
-  const Float most = gather(scene.shapes, &ShapeRecord::turned_below, shape, triangle);
+  const Float most = gather(scene.surfaces, &SurfaceRecord::turned_below, hit.primitive, triangle);
   const Vec3f normal = gather(scene.surfaces, &SurfaceRecord::geometry, hit.primitive, triangle).vector;
   Mask grazing = abs(dot(normal, hit.ray.direction)) <= most;
   // An instance's map changes angles.

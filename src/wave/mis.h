@@ -14,13 +14,13 @@ NORRSKEN_INLINE Float power_heuristic(Float count, Float pdf, Float other_count,
   return 1.0f / fma(ratio, ratio, 1.0f);
 }
 
-/// The weight of what a ray found on `light`, `distance` away: 1 where no light sampling competes with it.
-NORRSKEN_INLINE Float weight_of_found(const SceneView& scene, UInt light, const Ray& ray, Float distance, Mask active) {
-  const Mask competed = active & (ray.pdf_sa > 0.0f);
-  if (none(competed)) return 1.0f;
+/// The lanes whose ray may find what light sampling finds too.
+NORRSKEN_INLINE Mask competed(const Ray& ray, Mask active) { return active & (ray.pdf_sa > 0.0f); }
+
+/// The weight of what a ray found that light sampling finds with this density: 1 where it does not compete.
+NORRSKEN_INLINE Float weight_of_found(const SceneView& scene, const Ray& ray, Float light_pdf, Mask competed) {
   const Float light_samples(static_cast<float>(scene.integrator.emitter_samples));
   const Float bsdf_samples(static_cast<float>(scene.integrator.bsdf_samples));
-  const Float light_pdf = light_pdf_sa(scene, light, copied(ray.origin), copied(ray.direction), distance, competed);
   return select(competed, power_heuristic(bsdf_samples, ray.pdf_sa, light_samples, light_pdf), 1.0f);
 }
 

@@ -26,4 +26,11 @@ struct PlainScene : SceneView {
   }
 };
 
+/// For whom the side of a triangle's shading normal is all that matters.
+struct NormalsAlone : SceneView {
+  static constexpr bool needs_uv = false;  // NOLINT(readability-identifier-naming): the name of what it hides
+
+  explicit NormalsAlone(const SceneView& scene) : SceneView(scene) {}
+};
+
 }  // namespace norrsken::NORRSKEN_ISA

@@ -21,7 +21,13 @@ inline void shade_emission(const SceneView& scene, const Hits& light_hits, Slots
         emission = select(textured, evaluate_texture(scene, texture, copied(surface.texture), textured), emission);
       }
     }
-    const Float weight = weight_of_found(scene, light, hit.ray, hit.t, active);
+    Float weight(1.0f);
+    const Mask both = competed(hit.ray, active);
+    if (any(both)) {
+      const Float light_pdf =
+          light_pdf_sa(scene, light, copied(hit.ray.origin), copied(hit.ray.direction), hit.t, both);
+      weight = weight_of_found(scene, hit.ray, light_pdf, both);
+    }
     add_radiance(slots, hit.ray.slot, hit.ray.throughput * emission * weight, active);
   }
 }

@@ -9,9 +9,14 @@ inline void shade_miss(const SceneView& scene, const Rays& misses, Slots& slots)
   for (std::uint32_t i = 0; i < misses.count; i += kLanes) {
     const Mask active = first_lanes(misses.count - i);
     const Ray ray = load<Ray>(scene, misses, i);
-    const Color radiance = environment_radiance(scene, copied(ray.direction), active);
-    const Float weight = weight_of_found(scene, UInt(scene.environment), ray, Float(2.0f * scene.radius), active);
-    add_radiance(slots, ray.slot, ray.throughput * radiance * weight, active);
+    const SeenLight seen = environment_seen(scene, copied(ray.direction), active);
+    Float weight(1.0f);
+    const Mask both = competed(ray, active);
+    if (any(both)) {
+      const Float share = light_share(scene, UInt(scene.environment), ray.origin, both);
+      weight = weight_of_found(scene, ray, seen.pdf_sa * share, both);
+    }
+    add_radiance(slots, ray.slot, ray.throughput * seen.radiance * weight, active);
   }
 }
 

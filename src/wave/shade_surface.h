@@ -26,6 +26,14 @@ NORRSKEN_INLINE Float survival_probability(const Color& throughput, Float eta2) 
   return min(max_component(throughput) * eta2, 0.95f);
 }
 
+/// By which lights are chosen.
+template <class Model>
+NORRSKEN_INLINE Receiver receiver_of(const typename Model::Parameters& bsdf, const Vec3f& normal) {
+  Float least(kLeastFacing);
+  if constexpr (requires { Model::transmits(bsdf); }) least = select(Model::transmits(bsdf), 1.0f, least);
+  return {normal, least};
+}
+
 template <class Model, class Scene>
 NORRSKEN_INLINE void sample_lights(const Scene& scene, const ShadeSettings& settings, const Sampler& sampler,
                                    const SampleKey& key, const Hit& hit, const SurfacePoint& surface,
@@ -41,7 +49,8 @@ NORRSKEN_INLINE void sample_lights(const Scene& scene, const ShadeSettings& sett
     Vec2f pick{0.0f, 0.0f};
     if (choose) pick = sampler.sample_2d(k, dimension + hit_dimension::kLight);
     const Vec2f u = sampler.sample_2d(k, dimension + hit_dimension::kLightPosition);
-    const LightChoice light = sample_one_light(scene, surface.position, pick, u, active);
+    const LightChoice light =
+        sample_one_light(scene, surface.position, receiver_of<Model>(bsdf, surface.frame.n), pick, u, active);
 
     const Float side = dot(light.sample.point - surface.position, surface.normal);
     const Vec3f origin = spawn_origin(surface.position, surface.normal, surface.offset, side);
@@ -51,11 +60,10 @@ NORRSKEN_INLINE void sample_lights(const Scene& scene, const ShadeSettings& sett
     const Vec3f wi = surface.frame.to_local(direction);
 
     const Color f = Model::evaluate(bsdf, wo, wi);
-    const Float light_pdf = light.prob * light.sample.pdf_sa;
-    Float weight = 1.0f / (light_pdf * Float(static_cast<float>(n)));
+    Float weight = 1.0f / (light.prob * light.sample.pdf_sa * Float(static_cast<float>(n)));
     if (mis) {
-      const Float competing =
-          power_heuristic(Float(static_cast<float>(n)), light_pdf, bsdf_samples, Model::pdf_sa(bsdf, wo, wi));
+      const Float competing = power_heuristic(Float(static_cast<float>(n)), light.weight_prob * light.sample.pdf_sa,
+                                              bsdf_samples, Model::pdf_sa(bsdf, wo, wi));
       weight = weight * select(light.delta, 1.0f, competing);
     }
     if (map.count > 0) weight = weight * map.weight(direction, wi.z);

@@ -56,6 +56,14 @@ NORRSKEN_INLINE UInt light_of(const SceneView& scene, UInt primitive, Mask activ
   return gather(scene.primitive_lights, lights_of_shape(scene, shape, active) + (primitive - first), active);
 }
 
+/// Three numbers at each of three places. Component by component: so that what a processor has under way at a time asks
+/// for the memory of all three places.
+NORRSKEN_INLINE void gather_corners(const float* base, const UInt (&places)[3], Mask active, Vec3f (&corners)[3]) {
+  for (int k = 0; k < 3; ++k) corners[k].x = gather(base, places[k], active);
+  for (int k = 0; k < 3; ++k) corners[k].y = gather(base + 1, places[k], active);
+  for (int k = 0; k < 3; ++k) corners[k].z = gather(base + 2, places[k], active);
+}
+
 /// A point of a triangle: its corners, and its barycentric coordinates recomputed from the position.
 struct TrianglePoint {
   UInt vertices[3];
@@ -70,11 +78,9 @@ struct TrianglePoint {
 inline TrianglePoint make_triangle_point(const SceneView& scene, UInt primitive, Vec3f p, Mask active) {
   const UInt first = primitive * 3u;
   TrianglePoint t;
+  for (int k = 0; k < 3; ++k) t.vertices[k] = gather(scene.triangle_vertices + k, first, active);
   Vec3f corners[3];
-  for (int k = 0; k < 3; ++k) {
-    t.vertices[k] = gather(scene.triangle_vertices + k, first, active);
-    corners[k] = gather3(scene.positions, t.vertices[k] * 3u, active);
-  }
+  gather_corners(scene.positions, {t.vertices[0] * 3u, t.vertices[1] * 3u, t.vertices[2] * 3u}, active, corners);
   t.e1 = corners[1] - corners[0], t.e2 = corners[2] - corners[0];
   const Vec3f q = p - corners[0];
   const Float a11 = dot(t.e1, t.e1), a12 = dot(t.e1, t.e2), a22 = dot(t.e2, t.e2), b1 = dot(q, t.e1), b2 = dot(q, t.e2);
@@ -85,7 +91,7 @@ inline TrianglePoint make_triangle_point(const SceneView& scene, UInt primitive,
 
 inline Vec3f smooth_normal(const SceneView& scene, TrianglePoint t, Mask active) {
   Vec3f normals[3];
-  for (int k = 0; k < 3; ++k) normals[k] = gather3(scene.normals, t.vertices[k] * 3u, active);
+  gather_corners(scene.normals, {t.vertices[0] * 3u, t.vertices[1] * 3u, t.vertices[2] * 3u}, active, normals);
   return normalize(t.interpolate(normals));
 }
 
@@ -119,10 +125,8 @@ inline Parametrization parametrize_triangle(const SceneView& scene, TrianglePoin
   if (scene.texcoords != nullptr) {
     const Mask mapped = active & (gather(scene.shapes, &ShapeRecord::has_texcoords, shape, active) != 0u);
     Vec2f c[3];
-    for (int k = 0; k < 3; ++k) {
-      const UInt at = t.vertices[k] * 2u;
-      c[k] = {gather(scene.texcoords, at, mapped), gather(scene.texcoords + 1, at, mapped)};
-    }
+    for (int k = 0; k < 3; ++k) c[k].x = gather(scene.texcoords, t.vertices[k] * 2u, mapped);
+    for (int k = 0; k < 3; ++k) c[k].y = gather(scene.texcoords + 1, t.vertices[k] * 2u, mapped);
     const Vec2f d1{c[1].x - c[0].x, c[1].y - c[0].y}, d2{c[2].x - c[0].x, c[2].y - c[0].y};
     uv = select(mapped,
                 Vec2f{fma(d1.x, t.barycentric.x, fma(d2.x, t.barycentric.y, c[0].x)),
@@ -208,10 +212,12 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& h
 
   Vec3f shading = s.normal;
   if (scene.any_smooth || scene.needs_uv) {
-    s.texture.shape = shape_of(scene, hit.primitive, active);
-    s.texture.primitive = hit.primitive;
-    const UInt smooth = gather(scene.shapes, &ShapeRecord::smooth, s.texture.shape, active);
-    const Mask interpolate = triangle & (smooth != 0u);
+    if (scene.needs_uv) {
+      s.texture.shape = shape_of(scene, hit.primitive, active);
+      s.texture.primitive = hit.primitive;
+    }
+    const Float turned_below = gather(scene.surfaces, &SurfaceRecord::turned_below, hit.primitive, triangle);
+    const Mask interpolate = triangle & (turned_below >= 0.0f);
     const Mask look = scene.needs_uv ? triangle : interpolate;
     if (any(look)) {
       const TrianglePoint t = make_triangle_point(scene, hit.primitive, copied(s.position), look);
