@@ -82,13 +82,13 @@ TEST(SampleSet, CountsTheSamplesOfAReplicate) {
     return result;
   };
   using Counts = std::vector<std::uint32_t>;
-  EXPECT_EQ(counts(SampleSet(), 10), (Counts{3, 3, 2, 2}));
-  EXPECT_EQ(counts(SampleSet({{3, 100}}), 6), (Counts{2, 1, 1, 2})) << "samples 3 to 8";
-  EXPECT_EQ(counts(SampleSet({{0, 2}, {6, 7}, {9, 20}}), 5), (Counts{1, 2, 2, 0})) << "samples 0, 1, 6, 9, 10";
+  EXPECT_EQ(counts(SampleSet(), 11), (Counts{6, 5}));
+  EXPECT_EQ(counts(SampleSet({{3, 100}}), 6), (Counts{3, 3})) << "samples 3 to 8";
+  EXPECT_EQ(counts(SampleSet({{0, 2}, {6, 7}, {9, 20}}), 4), (Counts{2, 2})) << "samples 0, 1, 6, 9";
   // Tiles of 2 x 2 in an image of 5 x 4: pixel 13, at (3, 2), is in the second tile of the second row.
   const SampleSet unfinished({{0, 8}, {9, 20}}, {2, 2, 3, 5, {{8, 8, 8, 8, 3, 8}, {0, 0, 0, 0, 2, 0}}});
-  EXPECT_EQ(counts(unfinished, 5, 13), (Counts{1, 2, 2, 0})) << "samples 0, 1, 2, 9, 10";
-  EXPECT_EQ(counts(unfinished, 8, 0), (Counts{2, 2, 2, 2}));
+  EXPECT_EQ(counts(unfinished, 4, 13), (Counts{2, 2})) << "samples 0, 1, 2, 9";
+  EXPECT_EQ(counts(unfinished, 8, 0), (Counts{4, 4}));
 }
 
 }  // namespace

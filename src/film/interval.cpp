@@ -10,7 +10,7 @@ namespace norrsken {
 namespace {
 
 /// The share of the neighbours' variance in a pixel's.
-constexpr float kNeighborShare = 0.85f;
+constexpr float kNeighborShare = 0.9f;
 /// Of the power mean of their variances: between the mean of variances, which the noisiest rule, and that of deviations.
 constexpr float kExponent = 0.75f;
 

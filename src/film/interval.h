@@ -1,6 +1,6 @@
 // How far a pixel may be off: 95 % confidence intervals.
 //
-// A pixel's own variance estimate is not enough. It has few degrees of freedom (three with Sobol' points), and most of a
+// A pixel's own variance estimate is not enough. It has few degrees of freedom (one with Sobol' points), and most of a
 // pixel's noise may come from paths so rare that it has not seen one yet, its samples then agreeing on a value that is too
 // low. Its neighbours have seen some. So each variance is moderated by those around it, as Smyth does with the variances
 // of many genes (Linear Models and Empirical Bayes Methods for Assessing Differential Expression, 2004, section 3); the
@@ -17,7 +17,7 @@
 namespace norrsken {
 
 /// How far those neighbours are away at most, in pixels.
-inline constexpr std::uint32_t kNeighborReach = 5;
+inline constexpr std::uint32_t kNeighborReach = 7;
 
 /// Of one channel, row by row: half the width of each pixel's interval; NaN where not even the neighbours' variances are
 /// known. `variances` are those of the pixels' means, NaN where unknown, and `samples` how many are in each, by which
@@ -30,10 +30,10 @@ std::vector<float> confidence_intervals(std::uint32_t width, std::uint32_t heigh
 /// the variances over the sum of their squares: as many equally noisy pixels as would make the same noise.
 ///
 /// Both the true squared error and the estimate are sums over those pixels, taken as chi-square with so many degrees of
-/// freedom each (Satterthwaite, An Approximate Distribution of Estimates of Variance Components, 1946). Normal noise and four
-/// replicates would give the estimate three times as many, but where a few pixels have most of the noise it is not normal,
-/// and the greatest variance may be underestimated and not show. So F with equal degrees on both sides is on the safe
-/// side for ordinary images, where it is narrow anyway (tests/calibration).
+/// freedom each (Satterthwaite, An Approximate Distribution of Estimates of Variance Components, 1946): F with equal
+/// degrees on both sides. For normal noise and two replicates that is so; independent samples would give the estimate more
+/// degrees, but where a few pixels have most of the noise it is not normal, and the greatest variance may be
+/// underestimated and not show. On the safe side for ordinary images, where it is narrow anyway (tests/calibration).
 double error_uncertainty(double pixels);
 
 }  // namespace norrsken

@@ -1,7 +1,7 @@
 // What a pixel's samples say about its value.
 #pragma once
 
-#include "tables/wave_types.h"
+#include <cstddef>
 
 namespace norrsken {
 
@@ -15,9 +15,10 @@ struct PixelEstimate {
 /// From the sums of independent replicates and how many samples are in each: the spread of the replicates' means, each
 /// weighted with its share of the samples. For samples of variance v the sum of the n_r^2 (mean of r - mean)^2 is
 /// v (n - sum of n_r^2 / n) on average, of which this makes v / n.
-inline PixelEstimate estimate_from_replicates(const double (&sums)[kReplicates], const double (&counts)[kReplicates]) {
+template <std::size_t Replicates>
+PixelEstimate estimate_from_replicates(const double (&sums)[Replicates], const double (&counts)[Replicates]) {
   double total = 0, count = 0, squares = 0;
-  for (std::uint32_t r = 0; r < kReplicates; ++r) {
+  for (std::size_t r = 0; r < Replicates; ++r) {
     total += sums[r];
     count += counts[r];
     squares += counts[r] * counts[r];
@@ -26,7 +27,7 @@ inline PixelEstimate estimate_from_replicates(const double (&sums)[kReplicates],
   const double mean = total / count;
   if (squares == count * count) return {mean, 0, false};  // all in one
   double spread = 0;
-  for (std::uint32_t r = 0; r < kReplicates; ++r) {
+  for (std::size_t r = 0; r < Replicates; ++r) {
     const double deviation = sums[r] - counts[r] * mean;  // count * (mean of r - mean)
     spread += deviation * deviation;
   }

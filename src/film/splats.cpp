@@ -8,7 +8,8 @@ namespace norrsken {
 Splats::Splats(const FilmSettings& settings, std::span<const float> filter)
     : settings_(settings),
       filter_(filter.begin(), filter.end()),
-      sums_(static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height) * kReplicates * 3) {}
+      sums_(static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height) * kLightReplicates *
+            3) {}
 
 /// A pixel's value is the integral of the image times the filter around the pixel's centre, over the filter's integral:
 /// over all of it, or over what of it is on the film.
@@ -64,7 +65,7 @@ void Splats::add(const WaveJob& job, const Queue<stored::Splat>& splats, Dropped
       for (std::size_t x = 0; x < columns_.weights.size(); ++x) {
         const double weight = rows_.weights[y] * columns_.weights[x];
         const std::size_t pixel = (rows_.first + y) * width + columns_.first + x;
-        const std::size_t first = (pixel * kReplicates + sample % kReplicates) * 3;
+        const std::size_t first = (pixel * kLightReplicates + sample % kLightReplicates) * 3;
         for (std::size_t c = 0; c < 3; ++c) {
           sums_.add(first + c, rounded_to_24_bits(weight * static_cast<double>(color[c])));
         }
@@ -75,19 +76,19 @@ void Splats::add(const WaveJob& job, const Queue<stored::Splat>& splats, Dropped
 
 void Splats::count_paths(const WaveJob& job) {
   for (std::uint32_t s = 0; s < job.sample_count; ++s) {
-    paths_[(job.first_sample + s) % kReplicates] += job.pixel_count();
+    paths_[(job.first_sample + s) % kLightReplicates] += job.pixel_count();
   }
 }
 
 void Splats::add(const Splats& other) {
   sums_.add(other.sums_);
-  for (std::size_t r = 0; r < kReplicates; ++r) paths_[r] += other.paths_[r];
+  for (std::size_t r = 0; r < kLightReplicates; ++r) paths_[r] += other.paths_[r];
 }
 
 PixelEstimate Splats::estimate(std::uint64_t pixel, int channel) const {
-  double sums[kReplicates], counts[kReplicates];
-  for (std::size_t r = 0; r < kReplicates; ++r) {
-    sums[r] = sums_[(pixel * kReplicates + r) * 3 + static_cast<std::size_t>(channel)];
+  double sums[kLightReplicates], counts[kLightReplicates];
+  for (std::size_t r = 0; r < kLightReplicates; ++r) {
+    sums[r] = sums_[(pixel * kLightReplicates + r) * 3 + static_cast<std::size_t>(channel)];
     counts[r] = static_cast<double>(paths_[r]);
   }
   return estimate_from_replicates(sums, counts);

@@ -14,8 +14,8 @@
 
 namespace norrsken {
 
-/// Sums per pixel and replicate. Sample s of every path belongs to replicate s % kReplicates, also where samples are
-/// independent: a path that lands elsewhere counts for a pixel's variance too. Which paths come first depends on how the
+/// Sums per pixel and replicate. Sample s of every path belongs to replicate s % kLightReplicates, also where samples
+/// are independent: a path that lands elsewhere counts for a pixel's variance too. Which paths come first depends on how the
 /// work is cut; the sums do not, being exact.
 class Splats {
  public:
@@ -56,7 +56,7 @@ class Splats {
   std::vector<float> filter_;
   Footprint columns_, rows_;
   ExactPlanes sums_;  ///< R, G, B of one replicate after the other, pixel by pixel
-  std::array<std::uint64_t, kReplicates> paths_{};
+  std::array<std::uint64_t, kLightReplicates> paths_{};
 };
 
 }  // namespace norrsken

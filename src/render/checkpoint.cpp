@@ -13,7 +13,7 @@ namespace norrsken {
 namespace {
 
 /// Of the sections' contents; another one says that the file is of another program.
-constexpr std::uint32_t kFormatVersion = 3;
+constexpr std::uint32_t kFormatVersion = 4;
 
 constexpr std::uint64_t kLongestTraits = 1 << 20, kLongestForm = 1 << 20, kLongestProvenance = 1 << 24;
 constexpr double kTicksPerSecond = 1e6;

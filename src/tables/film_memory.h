@@ -27,7 +27,7 @@ inline std::uint64_t film_bytes_per_pixel(const FilmSettings& settings, SamplerK
                                           bool from_lights) {
   const auto features = static_cast<std::uint64_t>(std::popcount(feature_mask(settings, layers)));
   const std::uint64_t sums =
-      radiance_planes(sampler) + features + (layers.moments.empty() ? 0 : 3) + (from_lights ? 3 * kReplicates : 0);
+      radiance_planes(sampler) + features + (layers.moments.empty() ? 0 : 3) + (from_lights ? 3 * kLightReplicates : 0);
   return sizeof(std::uint32_t) + 2 * sizeof(double) * sums;
 }
 

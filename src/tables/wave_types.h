@@ -11,8 +11,12 @@
 
 namespace norrsken {
 
-/// Independent scramblings of the Sobol' points per pixel; sample s belongs to replicate s % kReplicates.
-inline constexpr std::uint32_t kReplicates = 4;
+/// Independent scramblings of the Sobol' points per pixel; sample s belongs to replicate s % kReplicates. As few as tell an
+/// error: where points are spread evenly the more of them help each other the more there are in one scrambling.
+inline constexpr std::uint32_t kReplicates = 2;
+/// The same of paths from the lights. All pixels share them, so no neighbours make up for what few replicates do not tell;
+/// and there are so many paths in each that fewer would not be spread more evenly.
+inline constexpr std::uint32_t kLightReplicates = 4;
 
 inline constexpr std::uint32_t kMaxLanes = 16;
 

@@ -16,9 +16,9 @@ NORRSKEN_INLINE SampleKey make_light_path_key(SamplerKind kind, std::uint64_t se
                                               std::uint32_t sample) {
   seed ^= kLightPathSeed;
   if (kind == SamplerKind::independent) return make_sample_key(kind, seed, path, sample);
-  const std::uint32_t round = sample / kReplicates, rounds = 0xffffffffu / paths;
+  const std::uint32_t round = sample / kLightReplicates, rounds = 0xffffffffu / paths;
   const UInt low(static_cast<std::uint32_t>(seed)), high(static_cast<std::uint32_t>(seed >> 32));
-  const UInt key = hash(hash(hash(UInt(sample % kReplicates), low), high), UInt(round / rounds));
+  const UInt key = hash(hash(hash(UInt(sample % kLightReplicates), low), high), UInt(round / rounds));
   return {key, UInt(round % rounds * paths) + path};
 }
 
