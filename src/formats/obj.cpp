@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <new>
 #include <stdexcept>
 
@@ -31,8 +32,11 @@ struct Corner {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, const std::string& path, Diagnostics& diagnostics)
-      : at_(bytes.data()), end_(bytes.data() + bytes.size()), complaints_(path, bytes, diagnostics) {}
+  ObjReader(std::string_view bytes, const std::string& path, Diagnostics& diagnostics, ObjMaterials* materials)
+      : at_(bytes.data()),
+        end_(bytes.data() + bytes.size()),
+        complaints_(path, bytes, diagnostics),
+        materials_(materials) {}
 
   std::optional<MeshData> read() {
     skip_byte_order_mark();
@@ -49,6 +53,8 @@ class ObjReader {
     warn_of_intricate(cutter_, complaints_);
     fill_in_absent();
     MeshData mesh = assemble();
+    if (materials_)
+      mesh.attributes.push_back({std::string(ObjMaterials::kAttribute), 1, true, std::move(material_of_triangle_)});
     leave_out_not_finite(mesh);
     return mesh;
   }
@@ -119,7 +125,27 @@ class ObjReader {
       numbers(texcoords_, keyword, 1, std::numeric_limits<float>::max());
     } else if (keyword == "f") {
       face(keyword);
+      note_material();
+    } else if (materials_ && keyword == "usemtl") {
+      const auto [known, is_new] = material_numbers_.try_emplace(rest_of_line(), materials_->names.size());
+      if (is_new) materials_->names.push_back(known->first);
+      material_ = static_cast<float>(known->second);
+    } else if (materials_ && keyword == "mtllib") {
+      materials_->libraries.insert(rest_of_line());
     }
+  }
+
+  // --- materials ---
+
+  std::string rest_of_line() {
+    const char* stop = at_;
+    while (stop < end_ && !is_break(*stop)) ++stop;
+    return std::string(trim({at_, static_cast<std::size_t>(stop - at_)}));
+  }
+
+  /// Of the triangles that have come since.
+  void note_material() {
+    if (materials_) material_of_triangle_.resize(corners_.size() / 3, material_);
   }
 
   // As many numbers as an element has, of which `required` must be there; what follows (w, colours) is skipped.
@@ -350,6 +376,10 @@ class ObjReader {
   const char* at_;
   const char* end_;
   MeshComplaints complaints_;
+  ObjMaterials* materials_;
+  std::map<std::string, std::size_t> material_numbers_;
+  float material_ = -1;
+  Array<float> material_of_triangle_;
   Array<std::array<float, 3>> positions_, normals_;
   Array<std::array<float, 2>> texcoords_;
   Array<Corner> corners_;  ///< three for every triangle
@@ -361,15 +391,25 @@ class ObjReader {
   bool has_texcoords_ = false, has_normals_ = false;
 };
 
-}  // namespace
-
-std::optional<MeshData> read_obj(std::string_view bytes, const std::string& path, Diagnostics& diagnostics) {
+std::optional<MeshData> read(std::string_view bytes, const std::string& path, Diagnostics& diagnostics,
+                             ObjMaterials* materials) {
   try {
-    return ObjReader(bytes, path, diagnostics).read();
+    return ObjReader(bytes, path, diagnostics, materials).read();
   } catch (const std::bad_alloc&) {
     MeshComplaints(path, bytes, diagnostics).about_file("the mesh does not fit into memory");
     return std::nullopt;
   }
+}
+
+}  // namespace
+
+std::optional<MeshData> read_obj(std::string_view bytes, const std::string& path, Diagnostics& diagnostics) {
+  return read(bytes, path, diagnostics, nullptr);
+}
+
+std::optional<MeshData> read_obj_with_materials(std::string_view bytes, const std::string& path,
+                                                Diagnostics& diagnostics, ObjMaterials& materials) {
+  return read(bytes, path, diagnostics, &materials);
 }
 
 }  // namespace norrsken
