@@ -1,7 +1,6 @@
 // gltf: host side.
 //
-// Side: the front; the back is not there, so that light passes, unless `double_sided` or a volume's boundary (`thin` is false
-// and something is transmitted), whose back has the inverse index.
+// Side: the front; the back too where light is transmitted, alike if `thin`, otherwise with the inverse index.
 #include "bsdf/gltf.h"
 
 #include <fmt/core.h>
@@ -40,7 +39,9 @@ constexpr BooleanParameter kThin{
 constexpr NumberParameter kClearcoat = share("clearcoat", 0, "share of a coat of index 1.5 over everything");
 constexpr NumberParameter kClearcoatRoughness =
     share("clearcoat_roughness", 0, "root of the slope of the coat's facets");
-constexpr BooleanParameter kDoubleSided{.name = "double_sided", .text = "the back is as the front"};
+constexpr ColorParameter kSheenColor{
+    .name = "sheen_color", .fallback = 0, .range = kShare, .text = "of the back-scattering of fibres below the coat"};
+constexpr NumberParameter kSheenRoughness = share("sheen_roughness", 0, "root of how far its fibres lean");
 
 }  // namespace
 
@@ -50,19 +51,20 @@ Material compile_bsdf_gltf(Parameters& p, Materials& materials) {
   const NumberOrTexture transmission = materials.read(p, kTransmission);
   const double ior = p.read(kIor);
   const bool transmits = !transmission.is_zero(), thin = p.read(kThin) || !transmits;
-  const bool double_sided = p.read(kDoubleSided);
   const double reflected = ior == 0 ? 1 : (ior - 1) / (ior + 1) * ((ior - 1) / (ior + 1));
   // What is not there cannot be refracted at.
   const double eta = ior == 0 ? 1.5 : ior == 1 ? 1.001 : ior;
   const Stored front{.base_color = base_color,
                      .vertex_color = materials.read(p, kVertexColor),
                      .specular_color = materials.read(p, kSpecularColor),
+                     .sheen_color = materials.read(p, kSheenColor),
                      .metallic = metallic,
                      .roughness = roughness,
                      .specular = materials.read(p, kSpecular),
                      .transmission = transmission,
                      .clearcoat = materials.read(p, kClearcoat),
                      .clearcoat_roughness = materials.read(p, kClearcoatRoughness),
+                     .sheen_roughness = materials.read(p, kSheenRoughness),
                      .f0 = static_cast<float>(reflected),
                      .eta = static_cast<float>(eta),
                      .is_thin = thin ? 1.0f : 0.0f,
@@ -72,13 +74,10 @@ Material compile_bsdf_gltf(Parameters& p, Materials& materials) {
                      fmt::format("base color {:.3g} {:.3g} {:.3g}, metallic {:.3g}, roughness {:.3g}{}", base.r, base.g,
                                  base.b, metallic.value, roughness.value, transmits ? ", transmits" : ""));
   Material material{.front = materials.add(front)};
-  if (!thin) {
-    Stored back = front;
-    back.eta = static_cast<float>(1 / eta), back.is_back = 1;
-    material.back = materials.add(back);
-  } else {
-    material.back = double_sided ? material.front : materials.add(BsdfKind::null);
-  }
+  if (!transmits) return material;
+  Stored back = front;
+  if (!thin) back.eta = static_cast<float>(1 / eta), back.is_back = 1;
+  material.back = materials.add(back);
   return material;
 }
 

@@ -1,11 +1,13 @@
-// Model       The layers of glTF's materials: a clear coat over a mixture of metal and dielectric, which is diffuse or lets
-//             light through below its reflection.
+// Model       The layers of glTF's materials: a clear coat over sheen over a mixture of metal and dielectric, which is diffuse
+//             or lets light through below its reflection.
 // Measure     pdf_sa: cosine-weighted, and from visible normals of the coat and of the facets, each as often as it is
 //             bright from where the surface is seen
-// Source      glTF 2.0, appendix B, and its extensions KHR_materials_specular, _ior, _transmission, _volume and _clearcoat
+// Source      glTF 2.0, appendix B, and its extensions KHR_materials_specular, _ior, _transmission, _volume, _clearcoat and
+//             _sheen, with the visibility of Ashikhmin and Premoze, "Distribution-based BRDFs", 2007
 // Departures  what the coat takes from what is below is the more of both directions, so that the model is reciprocal, as
-//             the specification has it for sheen; light inside is reflected by the angle outside, all of it beyond the
-//             critical one; facets have a slope of at least 0.001
+//             the specification has it for sheen; sheen's albedo is a fit, within 0.06; light inside is reflected by the
+//             angle outside, all of it beyond the critical one; facets have a slope of at least 0.001. As in the
+//             specification rough dielectrics and sheen give back more than arrives at grazing angles
 #pragma once
 
 #include "bsdf/bsdf.h"
@@ -21,6 +23,8 @@ struct Gltf {
     Color base_color, f0;  ///< f0, f90: what the dielectric reflects head on and at grazing angles
     Float f90;
     Microfacet facets, coat;
+    Color sheen;
+    Float sheen_roughness;
     Float metallic, transmission, clearcoat;
     Float eta;  ///< of the other side over this side
     Mask thin;  ///< what passes goes straight on, and both sides are the same
@@ -29,8 +33,8 @@ struct Gltf {
 
   struct Stored {
     static constexpr BsdfKind kKind = BsdfKind::gltf;
-    ColorSlot base_color, vertex_color, specular_color;
-    NumberSlot metallic, roughness, specular, transmission, clearcoat, clearcoat_roughness;
+    ColorSlot base_color, vertex_color, specular_color, sheen_color;
+    NumberSlot metallic, roughness, specular, transmission, clearcoat, clearcoat_roughness, sheen_roughness;
     float f0;  ///< by the index of refraction alone
     float eta;
     float is_thin, is_back;  ///< 1 if it is
@@ -45,9 +49,8 @@ struct Gltf {
     p.facets = facets_of(r.get(&Stored::roughness), 0.0f);
     p.coat = facets_of(r.get(&Stored::clearcoat_roughness), 0.0f);
     p.thin = r.get(&Stored::is_thin) != 0.0f, p.front = r.get(&Stored::is_back) == 0.0f;
-    // Inside there is neither metal nor the coat.
-    p.metallic = r.get(&Stored::metallic);
-    p.clearcoat = zero_unless(p.front, r.get(&Stored::clearcoat));
+    p.metallic = r.get(&Stored::metallic), p.clearcoat = r.get(&Stored::clearcoat);
+    p.sheen = r.get(&Stored::sheen_color), p.sheen_roughness = max(r.get(&Stored::sheen_roughness), 0.07f);
     p.transmission = r.get(&Stored::transmission);
     p.eta = r.get(&Stored::eta);
     return p;
@@ -69,16 +72,18 @@ struct Gltf {
     if (any(coat)) m = select(coat, p.coat.sample_visible(wo, direction), m);
     const Float cos_o = dot(wo, m);
     Vec3f wi = reflect(wo, m, cos_o);
+    Mask is_there = !Mask::none();  // a direction to refract to
     if (any(through)) {
       const FresnelDielectric fresnel = fresnel_dielectric(cos_o, p.eta);
       wi = select(through & p.thin, Vec3f{wi.x, wi.y, -wi.z}, wi);
       wi = select(through & !p.thin, refract(wo, m, cos_o, fresnel.cos_t, p.eta), wi);
+      is_there = p.thin | (fresnel.cos_t > 0.0f);
     }
     wi = select(diffuse, warp_to_cosine_hemisphere(direction), wi);
 
     const Facet f = facet_between(p, wo, wi);
     const Float pdf = pdf_sa(p, wo, wi, f, probs);
-    const Mask valid = (pdf > 0.0f) & (diffuse | f.possible) & (through ^ (wi.z > 0.0f));
+    const Mask valid = (pdf > 0.0f) & (diffuse | f.possible) & (through ^ (wi.z > 0.0f)) & (is_there | !through);
     const Mask bends = through & !p.thin;
     return {wi, evaluate(p, wo, wi, f) * (1.0f / select(valid, pdf, 1.0f)), pdf, valid, select(bends, p.eta, 1.0f)};
   }
@@ -89,7 +94,7 @@ struct Gltf {
 
  private:
   struct Probs {
-    Float diffuse, coat, through;  ///< the rest is reflection by facets
+    Float diffuse, coat, through;  ///< diffuse: and sheen; the rest is reflection by facets
   };
   /// A facet that sends light from wi to wo.
   struct Facet {
@@ -101,6 +106,26 @@ struct Gltf {
   };
 
   static NORRSKEN_INLINE Float coat_reflectance(Float cosine) { return mix(0.04f, 1.0f, schlick_weight(cosine)); }
+
+  /// Share of the light that white sheen gives back. Fitted to the integral over roughness from 0.15 on.
+  static NORRSKEN_INLINE Float sheen_albedo(const Parameters& p, Float cosine) {
+    const Float r = max(p.sheen_roughness, 0.15f), inv_r = 1.0f / r;
+    const auto over_roughness = [&](float constant, float linear, float inverse) {
+      return fma(r, linear, fma(inv_r, inverse, constant));
+    };
+    const Float exponent =
+        fma(cosine, fma(cosine, over_roughness(-1.1149f, 1.0026f, 0.2867f), over_roughness(0.0966f, -0.1524f, -1.381f)),
+            over_roughness(-0.2035f, -0.5763f, 0.1798f));
+    return min(exp(exponent), 1.0f);
+  }
+
+  /// Sheen's f over its colour, for the normal m halfway: Charlie's distribution, with its visibility.
+  static NORRSKEN_INLINE Float sheen_lobe(const Parameters& p, const Vec3f& m, Float cos_o, Float cos_i) {
+    const Float inv_alpha = 1.0f / (p.sheen_roughness * p.sheen_roughness);
+    const Float sin2 = max(fnma(m.z, m.z, 1.0f), 1e-7f);
+    const Float density = (2.0f + inv_alpha) * pow(sin2, 0.5f * inv_alpha) * (0.5f * kInvPi);
+    return density * 0.25f / max(fnma(cos_o, cos_i, cos_o + cos_i), 1e-6f);
+  }
 
   static NORRSKEN_INLINE Color dielectric_reflectance(const Parameters& p, Float cos_i) {
     const FresnelDielectric fresnel = fresnel_dielectric(cos_i, p.eta);
@@ -119,8 +144,9 @@ struct Gltf {
     const Float metal = select(p.front, p.metallic, 0.0f), dielectric = 1.0f - p.metallic;
     // Facets that are met less obliquely than the surface reflect less.
     const Float below = dielectric * max_component(p.base_color) * max(1.0f - max_component(reflected), 0.1f);
-    const Float diffuse = below * (1.0f - p.transmission), through = below * p.transmission;
-    const Float coat = p.clearcoat * coat_reflectance(wo.z);
+    const Float sheen = zero_unless(p.front, max_component(p.sheen) * sheen_albedo(p, wo.z));
+    const Float diffuse = fma(below, 1.0f - p.transmission, sheen), through = below * p.transmission;
+    const Float coat = zero_unless(p.front, p.clearcoat * coat_reflectance(wo.z));
     const Float facets = fma(metal, max_component(metal_reflectance(p, wo.z)), dielectric * max_component(reflected));
     const Float others = diffuse + through + coat;
     const Float scale = 1.0f / (others + max(facets, fma(others, 0.1f, 1e-4f)));
@@ -175,10 +201,20 @@ struct Gltf {
       value = fma(p.base_color, zero_unless(through, below * p.transmission * shape), value);
     }
 
-    const Mask coated = p.clearcoat > 0.0f;
+    // What lies above is met from outside alone.
+    const Mask covered = p.front | !f.reflects;
+    const Float both = min(wo.z, abs(wi.z)), one = select(p.front, wo.z, abs(wi.z));
+    const Float outside = select(f.reflects | p.thin, both, one);
+    const Mask has_sheen = covered & (max_component(p.sheen) > 0.0f);
+    if (any(has_sheen)) {
+      const Float taken = max_component(p.sheen) * sheen_albedo(p, outside);
+      value = select(has_sheen, value * max(1.0f - taken, 0.0f), value);
+      const Float sheen = sheen_lobe(p, f.m, wo.z, wi.z) * wi.z;
+      value = fma(p.sheen, zero_unless(has_sheen & above, sheen), value);
+    }
+    const Mask coated = covered & (p.clearcoat > 0.0f);
     if (any(coated)) {
-      const Float outside = select(f.reflects | p.thin, min(wo.z, abs(wi.z)), wo.z);
-      value = value * fnma(p.clearcoat, coat_reflectance(outside), 1.0f);
+      value = select(coated, value * fnma(p.clearcoat, coat_reflectance(outside), 1.0f), value);
       const Float coat = p.clearcoat * coat_reflectance(f.cos_o) * p.coat.density(f.m) * p.coat.masking(wo, f.m) *
                          p.coat.masking(wi, f.m) * 0.25f / wo.z;
       value = value + grey(zero_unless(coated & f.possible & f.reflects, coat));

@@ -42,7 +42,7 @@ class MeshScene {
     for (auto& [number, mesh] : meshes) {
       bounds_.add(bounds_of(mesh), glm::dmat4(1));
       add_shape(std::move(mesh), number < 0 ? nullptr : find(libraries, names_.names[static_cast<std::size_t>(number)]),
-                data->face_normals);
+                data->face_normals || (is_obj_ && data->normals.empty() && !names_.is_smooth));
     }
     scene_.add(studio_floor(bounds_, place_));
     scene_.add(sensor_around(bounds_, place_));
@@ -71,7 +71,8 @@ class MeshScene {
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (name.ends_with(".ply") || looks_like_ply(contents->bytes))
       return read_ply(contents->bytes, path_, diagnostics_);
-    if (name.ends_with(".obj")) return read_obj_with_materials(contents->bytes, path_, diagnostics_, names_);
+    is_obj_ = name.ends_with(".obj");
+    if (is_obj_) return read_obj_with_materials(contents->bytes, path_, diagnostics_, names_);
     auto mesh = read_stl(contents->bytes, path_, diagnostics_);
     if (!mesh) return mesh;
     for (auto& p : mesh->positions) p = {p[0], p[2], -p[1]};
@@ -242,6 +243,7 @@ class MeshScene {
   MemoryReservation memory_{0};
   SourceLocation place_;
   ObjMaterials names_;
+  bool is_obj_ = false;
   Bounds bounds_;
   Node scene_{"scene"};
 };

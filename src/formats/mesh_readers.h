@@ -20,6 +20,7 @@ struct ObjMaterials {
   static constexpr std::string_view kAttribute = "face_material";
   std::set<std::string> libraries = {};  ///< of mtllib
   std::vector<std::string> names = {};   ///< of usemtl, each once
+  bool is_smooth = false;                ///< a smoothing group was begun
 };
 
 /// Wavefront OBJ: v, vt, vn, f with any polygon and negative indices; other statements are skipped. A byte order mark may

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
 #include <new>
 #include <stdexcept>
 
@@ -17,6 +16,7 @@
 #include "formats/mesh_complaints.h"
 #include "formats/mesh_flaws.h"
 #include "formats/mesh_readers.h"
+#include "formats/obj_materials.h"
 #include "formats/polygon.h"
 #include "scene/description.h"
 
@@ -53,8 +53,7 @@ class ObjReader {
     warn_of_intricate(cutter_, complaints_);
     fill_in_absent();
     MeshData mesh = assemble();
-    if (materials_)
-      mesh.attributes.push_back({std::string(ObjMaterials::kAttribute), 1, true, std::move(material_of_triangle_)});
+    materials_.give_to(mesh);
     leave_out_not_finite(mesh);
     return mesh;
   }
@@ -125,27 +124,16 @@ class ObjReader {
       numbers(texcoords_, keyword, 1, std::numeric_limits<float>::max());
     } else if (keyword == "f") {
       face(keyword);
-      note_material();
-    } else if (materials_ && keyword == "usemtl") {
-      const auto [known, is_new] = material_numbers_.try_emplace(rest_of_line(), materials_->names.size());
-      if (is_new) materials_->names.push_back(known->first);
-      material_ = static_cast<float>(known->second);
-    } else if (materials_ && keyword == "mtllib") {
-      materials_->libraries.insert(rest_of_line());
+      materials_.note(corners_.size() / 3);
+    } else if (materials_.takes(keyword)) {
+      materials_.statement(keyword, rest_of_line());
     }
   }
 
-  // --- materials ---
-
-  std::string rest_of_line() {
+  std::string rest_of_line() const {
     const char* stop = at_;
     while (stop < end_ && !is_break(*stop)) ++stop;
     return std::string(trim({at_, static_cast<std::size_t>(stop - at_)}));
-  }
-
-  /// Of the triangles that have come since.
-  void note_material() {
-    if (materials_) material_of_triangle_.resize(corners_.size() / 3, material_);
   }
 
   // As many numbers as an element has, of which `required` must be there; what follows (w, colours) is skipped.
@@ -376,10 +364,7 @@ class ObjReader {
   const char* at_;
   const char* end_;
   MeshComplaints complaints_;
-  ObjMaterials* materials_;
-  std::map<std::string, std::size_t> material_numbers_;
-  float material_ = -1;
-  Array<float> material_of_triangle_;
+  ObjMaterialNotes materials_;
   Array<std::array<float, 3>> positions_, normals_;
   Array<std::array<float, 2>> texcoords_;
   Array<Corner> corners_;  ///< three for every triangle

@@ -47,6 +47,38 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
+const Property* find(const Node& node, std::string_view name) {
+  const auto found = std::ranges::find(node.properties, name, &Property::name);
+  return found != node.properties.end() ? &*found : nullptr;
+}
+
+double number_of(const Node& node, std::string_view name, double fallback) {
+  const Property* property = find(node, name);
+  const auto* number = property ? std::get_if<double>(&property->value) : nullptr;
+  return number ? *number : fallback;
+}
+
+bool flag_of(const Node& node, std::string_view name, bool fallback) {
+  const Property* property = find(node, name);
+  const auto* flag = property ? std::get_if<bool>(&property->value) : nullptr;
+  return flag ? *flag : fallback;
+}
+
+bool has(const Node& node, std::string_view name) {
+  return find(node, name) != nullptr ||
+         std::ranges::any_of(node.children, [&](const Node::Child& c) { return c.name == name; });
+}
+
+/// Gives `to` the number, colour or texture `name` of `from`; false if there is none.
+bool pass_on(const Node& from, const char* name, Node& to, const char* as) {
+  for (const Node::Child& child : from.children) {
+    if (child.name == name) return to.add(child.node, as), true;
+  }
+  const Property* property = find(from, name);
+  if (property) to.set(as, property->value);
+  return property != nullptr;
+}
+
 class Writer {
  public:
   Writer(const Description& description, const std::string& path, const FileSystem& files, Diagnostics& diagnostics)
@@ -102,8 +134,17 @@ class Writer {
     return id;
   }
 
+  /// Whether it is a `gltf` that transmits, or a map around one.
+  static bool transmits(const Node& bsdf) {
+    if (bsdf.plugin == "gltf") return has(bsdf, "transmission");
+    return std::ranges::any_of(bsdf.children,
+                               [](const Node::Child& c) { return c.node->kind == "bsdf" && transmits(*c.node); });
+  }
+
   void write_child(const Node::Child& child, int depth) {
     const Node& node = *child.node;
+    if (node.plugin == "twosided" && transmits(node))
+      return write_child({child.name, node.children.front().node, {}}, depth);
     if (const auto known = id_of_node_.find(&node); known != id_of_node_.end())
       return line(depth, fmt::format("<ref id=\"{}\"{}/>", escaped(known->second), name_attribute(child.name)));
     const std::string id = id_of(node);
@@ -132,7 +173,14 @@ class Writer {
 
   void write_inside(const Node& node, int depth) {
     for (const Property& property : node.properties) write_property(node, property, depth);
-    for (const Node::Child& child : node.children) write_child(child, depth);
+    for (const Node::Child& child : node.children) {
+      if (node.kind == "bsdf" && node.plugin == "twosided" && &child != &node.children.front() &&
+          child.node->plugin == "null") {
+        tell("Mitsuba has no bsdf 'twosided' of which one side is not there", "the front on both sides");
+      } else {
+        write_child(child, depth);
+      }
+    }
   }
 
   // --- values ---
@@ -168,8 +216,8 @@ class Writer {
     } else if (const auto* transform = std::get_if<Property::Transform>(&property.value)) {
       line(depth, fmt::format("<transform name=\"{}\">", escaped(name)));
       std::string rows;
-      for (const auto& row : transform->rows) rows += fmt::format("{} ", fmt::join(row, " "));
-      line(depth + 1, fmt::format("<matrix value=\"{}0 0 0 1\"/>", rows));
+      for (const auto& row : transform->rows) rows += fmt::format("{}{}", rows.empty() ? "" : " ", fmt::join(row, " "));
+      line(depth + 1, fmt::format("<matrix value=\"{}\"/>", rows));
       line(depth, "</transform>");
     } else if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&property.value)) {
       line(depth, fmt::format("<string name=\"filename\" value=\"{}\"/>", escaped(file_of(**mesh))));
@@ -269,38 +317,6 @@ class Writer {
   std::size_t meshes_ = 0, images_ = 0;
 };
 
-const Property* find(const Node& node, std::string_view name) {
-  const auto found = std::ranges::find(node.properties, name, &Property::name);
-  return found != node.properties.end() ? &*found : nullptr;
-}
-
-double number_of(const Node& node, std::string_view name, double fallback) {
-  const Property* property = find(node, name);
-  const auto* number = property ? std::get_if<double>(&property->value) : nullptr;
-  return number ? *number : fallback;
-}
-
-bool flag_of(const Node& node, std::string_view name, bool fallback) {
-  const Property* property = find(node, name);
-  const auto* flag = property ? std::get_if<bool>(&property->value) : nullptr;
-  return flag ? *flag : fallback;
-}
-
-bool has(const Node& node, std::string_view name) {
-  return find(node, name) != nullptr ||
-         std::ranges::any_of(node.children, [&](const Node::Child& c) { return c.name == name; });
-}
-
-/// Gives `to` the number, colour or texture `name` of `from`; false if there is none.
-bool pass_on(const Node& from, const char* name, Node& to, const char* as) {
-  for (const Node::Child& child : from.children) {
-    if (child.name == name) return to.add(child.node, as), true;
-  }
-  const Property* property = find(from, name);
-  if (property) to.set(as, property->value);
-  return property != nullptr;
-}
-
 }  // namespace
 
 Node without_gltf(const Node& bsdf, Diagnostics& diagnostics) {
@@ -333,9 +349,7 @@ Node without_gltf(const Node& bsdf, Diagnostics& diagnostics) {
   }
   const double head_on = ior == 0 ? 1 : (ior - 1) / (ior + 1) * ((ior - 1) / (ior + 1));
   result.set("specular", std::clamp(head_on * number_of(bsdf, "specular", 1) / 0.08, 0.0, 1.0));
-  Node sides("bsdf", "twosided");
-  sides.add(std::move(result));
-  return sides;
+  return result;
 }
 
 std::vector<std::string> write_mitsuba_xml(const Description& description, const std::string& path,

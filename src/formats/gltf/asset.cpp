@@ -151,9 +151,10 @@ bool Asset::open_binary() {
       return refuse(
           fmt::format("the binary glTF is damaged: a chunk of {} bytes begins at byte {} of {}", length, at, total),
           "chunks that end within the file");
-    const std::string_view chunk = bytes.substr(at, length);
+    std::string_view chunk = bytes.substr(at, length);
     if (!has_json) {
       if (type != "JSON") return refuse("the binary glTF does not begin with a chunk JSON", "the chunk JSON first");
+      while (chunk.ends_with('\0')) chunk.remove_suffix(1);  // that some writers fill up with
       source_ = SourceText(path, chunk);
       has_json = true;
     } else if (!has_binary_ && type == std::string_view("BIN\0", 4)) {
@@ -226,16 +227,12 @@ std::size_t Asset::whole(const Json& object, std::string_view name, std::size_t 
   return index(object, name).value_or(fallback);
 }
 
-bool Asset::fill(const Json& list, double* values, std::size_t n) {
+void Asset::fill(const Json& list, double* values, std::size_t n) {
   const bool fits = list.items.size() == n && std::ranges::all_of(list.items, [](const Json& item) {
                       return item.kind == Json::Kind::number && std::abs(item.number) <= 1e30;
                     });
-  if (!fits) {
-    error(list, "the array does not hold what it stands for", fmt::format("{} numbers", n));
-    return false;
-  }
+  if (!fits) return error(list, "the array does not hold what it stands for", fmt::format("{} numbers", n));
   for (std::size_t i = 0; i < n; ++i) values[i] = list.items[i].number;
-  return true;
 }
 
 const Json* Asset::element(const Json& named_at, std::string_view collection, std::size_t index) {

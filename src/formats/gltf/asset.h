@@ -34,7 +34,6 @@ struct Choices {
 
 class Asset {
  public:
-  /// `json` is the text within `bytes` of the file; `binary` the chunk that a .glb has beside it.
   Asset(const FileSystem& all_files, Diagnostics& complaints, const std::string& path);
 
   const FileSystem& files;
@@ -68,7 +67,7 @@ class Asset {
   template <std::size_t n>
   std::array<double, n> numbers(const Json& object, std::string_view name, std::array<double, n> fallback) {
     const Json* list = member(object, name, Json::Kind::array);
-    if (list && fill(*list, fallback.data(), n)) return fallback;
+    if (list) fill(*list, fallback.data(), n);
     return fallback;
   }
   /// The element of the root's array `collection` that a member of `object` names; null if it names none, or after a
@@ -82,7 +81,8 @@ class Asset {
   std::shared_ptr<const std::string> resource(const Json& owner);
 
  private:
-  bool fill(const Json& list, double* values, std::size_t n);
+  /// Leaves the values as they are after a complaint.
+  void fill(const Json& list, double* values, std::size_t n);
   std::shared_ptr<const std::string> buffer(const Json& object);
   bool open_binary();
 

@@ -158,6 +158,11 @@ const Json* Json::find(std::string_view name) const {
   return found != members.rend() ? &found->second : nullptr;
 }
 
+const Json& no_members() {
+  static const Json empty{.kind = Json::Kind::object};
+  return empty;
+}
+
 std::string_view name_of(Json::Kind kind) {
   static constexpr std::string_view kNames[] = {"null", "a boolean", "a number", "a string", "an array", "an object"};
   return kNames[static_cast<std::size_t>(kind)];

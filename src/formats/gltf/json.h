@@ -27,6 +27,9 @@ struct Json {
   const Json* find(std::string_view name) const;
 };
 
+/// An object without members: of what is not given all is as the specification says.
+const Json& no_members();
+
 /// "an array".
 std::string_view name_of(Json::Kind kind);
 

@@ -40,7 +40,6 @@ class Materials {
   bool has_normal_map(const Json* material);
 
  private:
-  struct Maker;
   std::optional<std::size_t> variant_number();
 
   Asset& asset_;

@@ -16,19 +16,19 @@ using gltf::Json;
 
 /// Extensions that are understood as far as docs/gltf.md tells.
 const std::vector<std::string>& known_extensions() {
-  static const std::vector<std::string> known = {"EXT_mesh_gpu_instancing", "KHR_lights_punctual",
-                                                 "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-                                                 "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
-                                                 "KHR_materials_specular",  "KHR_materials_transmission",
-                                                 "KHR_materials_unlit",     "KHR_materials_variants",
-                                                 "KHR_materials_volume",    "KHR_mesh_quantization",
-                                                 "KHR_node_visibility",     "KHR_texture_transform",
-                                                 "KHR_xmp_json_ld"};
+  static const std::vector<std::string> known = {"EXT_mesh_gpu_instancing",    "KHR_lights_punctual",
+                                                 "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
+                                                 "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+                                                 "KHR_materials_sheen",        "KHR_materials_specular",
+                                                 "KHR_materials_transmission", "KHR_materials_unlit",
+                                                 "KHR_materials_variants",     "KHR_materials_volume",
+                                                 "KHR_mesh_quantization",      "KHR_node_visibility",
+                                                 "KHR_texture_transform",      "KHR_xmp_json_ld"};
   return known;
 }
 /// Those of which the material's own part is told where it stands.
 bool is_told_elsewhere(std::string_view name) {
-  return name == "KHR_materials_sheen" || name == "KHR_materials_iridescence" || name == "KHR_materials_anisotropy" ||
+  return name == "KHR_materials_iridescence" || name == "KHR_materials_anisotropy" ||
          name == "KHR_materials_dispersion" || name == "KHR_materials_diffuse_transmission";
 }
 

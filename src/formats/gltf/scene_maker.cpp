@@ -215,9 +215,8 @@ void SceneMaker::add_camera(std::size_t i) {
 }
 
 void SceneMaker::add_spot(const Json& light, const Property::Rgb& intensity, const glm::dmat4& to_world) {
-  static const Json no_spot{.kind = Json::Kind::object};
   const Json* given = asset_.member(light, "spot", Json::Kind::object);
-  const Json& spot = given ? *given : no_spot;
+  const Json& spot = given ? *given : no_members();
   const double outer = asset_.number(spot, "outerConeAngle", std::numbers::pi / 4, 0, std::numbers::pi / 2);
   const double inner = std::min(asset_.number(spot, "innerConeAngle", 0, 0), outer);
   const SourceLocation place = asset_.place(light);
