@@ -56,6 +56,7 @@ LIBRARIES = {
     "jpeglib.h": ["image"],
     "tiffio.h": ["image"],
     "pugixml.hpp": ["formats"],
+    "nlohmann/": ["formats", "apps"],
     "zlib.h": ["formats"],
     "xxhash.h": ["base"],
     "CLI/": ["apps"],

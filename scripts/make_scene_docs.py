@@ -242,7 +242,7 @@ def without_effect():
 def page(plugins):
     """`plugins`: what list_plugins prints."""
     out = ["# Scene files: every plugin and its parameters", "",
-           "Norrsken reads the XML format of Mitsuba 3, and [scenes in pbrt's language](pbrt.md). This page is written by `scripts/make_scene_docs.py` from what the "
+           "Norrsken reads the XML format of Mitsuba 3, [scenes in pbrt's language](pbrt.md), and [glTF](gltf.md). This page is written by `scripts/make_scene_docs.py` from what the "
            "sources declare and their header blocks; change it there. Lengths are in scene units, angles in degrees, colours "
            "linear sRGB; \"color\" stands for `rgb`, `spectrum` or a grey `float`, \"number\" for `float` or `integer`. A "
            "parameter that nobody asks for is an error, but for [those](#without-effect) that the format's base classes take. "

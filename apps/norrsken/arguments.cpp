@@ -173,7 +173,7 @@ void SceneArguments::add_to(Command& command) {
   const std::initializer_list<Option> options = {
       {.names = "SCENE",
        .target = &scene,
-       .help = "scene file (Mitsuba XML, pbrt), or a name that 'norrsken scenes' lists",
+       .help = "scene file (Mitsuba XML, pbrt, glTF), mesh (PLY, OBJ, STL), or a name that 'norrsken scenes' lists",
        .is_required = true},
       {"-D", &definitions, "NAME=VALUE", "Set the scene's $NAME, as in -Dlight=point; may be repeated", definition()},
       {"--sensor", &sensor, "N|ID",

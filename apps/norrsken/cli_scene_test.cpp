@@ -61,10 +61,10 @@ TEST_F(CliScene, AnOldSceneIsUpgradedAndInfoTellsHow) {
 }
 
 TEST_F(CliScene, WhatIsNoSceneIsToldByName) {
-  folder_.write("ball.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  const ProcessResult mesh = run({"render", "ball.obj"});
+  folder_.write("ball.txt", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const ProcessResult mesh = run({"render", "ball.txt"});
   EXPECT_EQ(mesh.status, 65);
-  EXPECT_THAT(mesh.err, AllOf(HasSubstr("ball.obj: error: 'ball.obj' is a Wavefront OBJ mesh, not a scene"),
+  EXPECT_THAT(mesh.err, AllOf(HasSubstr("ball.txt: error: 'ball.txt' is a Wavefront OBJ mesh, not a scene"),
                               Not(HasSubstr("root element"))));
   // The scene that it proposes renders the mesh.
   const std::size_t begin = mesh.err.find("    <scene"), end = mesh.err.find("</scene>");
@@ -73,6 +73,18 @@ TEST_F(CliScene, WhatIsNoSceneIsToldByName) {
   const ProcessResult info = run({"info", "ball.xml"});
   EXPECT_EQ(info.err, "");
   EXPECT_THAT(info.out, HasSubstr("1 triangle,"));
+}
+
+TEST_F(CliScene, MeshesAreConvertedToScenes) {
+  folder_.write("ball.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const ProcessResult converted = run({"convert", "ball.obj", "-o", "ball.xml"});
+  EXPECT_EQ(converted.status, 0);
+  EXPECT_THAT(converted.err, HasSubstr("note: a mesh without camera and light"));
+  EXPECT_EQ(converted.out, "ball.xml and 2 files beside it\n");
+  EXPECT_THAT(run({"info", "ball.xml"}).out, HasSubstr("1 triangle,"));
+  EXPECT_EQ(run({"convert", "ball.xml", "-o", "./ball.xml"}).status, 64);
+  EXPECT_EQ(run({"convert", "missing.obj", "-o", "b.xml"}).status, 66);
+  EXPECT_EQ(run({"convert", "ball.obj", "-o", "b.json"}).status, 64);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ using testing::Not;
 using testing::StartsWith;
 
 TEST_F(Cli, HelpAndVersionGoToStdout) {
-  for (const char* command : {"render", "info", "scenes", "compare", "bench", "figures"}) {
+  for (const char* command : {"render", "info", "scenes", "convert", "compare", "bench", "figures"}) {
     const ProcessResult help = run({command, "--help"});
     EXPECT_EQ(help.status, 0) << command;
     EXPECT_THAT(help.out, AllOf(HasSubstr("Example"), HasSubstr(std::string("norrsken ") + command)));

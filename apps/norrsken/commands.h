@@ -9,6 +9,7 @@ Command render_command();
 Command merge_command();
 Command info_command();
 Command scenes_command();
+Command convert_command();
 Command compare_command();
 Command bench_command();
 Command figures_command();

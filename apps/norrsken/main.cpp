@@ -28,8 +28,8 @@ Program program() {
               "Exit status: 0 done, 64 wrong command line, 65 wrong scene, 66 missing input, 70 internal fault,\n"
               "73 cannot create output, 74 write error, 77 interrupted (render saves what there is).",
           .version = version_text,
-          .commands = {render_command(), merge_command(), info_command(), scenes_command(), compare_command(),
-                       bench_command(), figures_command()}};
+          .commands = {render_command(), merge_command(), info_command(), scenes_command(), convert_command(),
+                       compare_command(), bench_command(), figures_command()}};
 }
 
 ExitStatus run(const std::vector<std::string>& words) {

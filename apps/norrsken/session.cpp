@@ -25,12 +25,12 @@ bool any_error_names_a_file(const Diagnostics& diagnostics) {
   });
 }
 
-ExitStatus status_of(const std::string& scene, const Diagnostics& diagnostics) {
+}  // namespace
+
+ExitStatus failed_scene_status(const std::string& scene, const Diagnostics& diagnostics) {
   if (!is_builtin(scene) && unreadable_input_status(scene) == ExitStatus::no_input) return ExitStatus::no_input;
   return any_error_names_a_file(diagnostics) ? ExitStatus::data_error : ExitStatus::usage;
 }
-
-}  // namespace
 
 ExitStatus unreadable_input_status(const std::string& path) {
   struct stat status {};
@@ -42,7 +42,7 @@ Scene load_scene(const std::string& name, const LoadOptions& options, bool with_
   Result<Scene> scene = Scene::load(name, options);
   print_diagnostics(scene.diagnostics(), with_warnings);
   if (so_far != ExitStatus::done) throw Failure(so_far, "");
-  if (!scene) throw Failure(status_of(name, scene.diagnostics()), "");
+  if (!scene) throw Failure(failed_scene_status(name, scene.diagnostics()), "");
   return *std::move(scene);
 }
 

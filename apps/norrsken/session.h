@@ -15,11 +15,15 @@ namespace norrsken::cli {
 /// data_error. Never opens it: that waits for ever on a pipe.
 ExitStatus unreadable_input_status(const std::string& path);
 
-/// Tells the scene's diagnostics on stderr. A Failure without text if there were errors: no_input if the file itself
-/// cannot be read, usage if all complaints are about the command line, data_error otherwise. `so_far` is what has been
+/// Tells the scene's diagnostics on stderr. A Failure without text if there were errors, of the status that
+/// `failed_scene_status` tells. `so_far` is what has been
 /// complained about before the scene was loaded: if it is not `done`, it is the Failure's status.
 Scene load_scene(const std::string& name, const LoadOptions& options, bool with_warnings = true,
                  ExitStatus so_far = ExitStatus::done);
+
+/// What to exit with after a scene could not be read: no_input if the file itself cannot be, usage if all complaints are
+/// about the command line, data_error otherwise.
+ExitStatus failed_scene_status(const std::string& scene, const Diagnostics& diagnostics);
 
 /// A Failure without text: usage if the options do not fit this build, this processor or the scene, data_error if the
 /// checkpoint does not.

@@ -1,4 +1,4 @@
-// builtin_scenes and scene_formats of include/norrsken/scene.h, too.
+// builtin_scenes and scene_formats of include/norrsken/scene.h and include/norrsken/convert.h, too.
 #include "compile/load.h"
 
 #include <fmt/format.h>
@@ -10,6 +10,8 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "formats/scene_formats.h"
+#include "formats/write_mitsuba_xml.h"
+#include "norrsken/convert.h"
 #include "scene/check_description.h"
 #include "scene/memory_files.h"
 #include "scene/read_files.h"
@@ -55,8 +57,8 @@ SceneArguments scene_arguments(const LoadOptions& options) {
   return arguments;
 }
 
-std::optional<LoadedScene> read_and_compile(const std::string& path, const RecordedFiles& files,
-                                            const LoadOptions& options, Diagnostics& diagnostics) {
+std::optional<Description> read_scene_file(const std::string& path, const FileSystem& files, const LoadOptions& options,
+                                           Diagnostics& diagnostics) {
   SourceLocation whole_file;
   whole_file.file = path;
   const SceneReader& reader = reader_of(path, files);
@@ -64,6 +66,12 @@ std::optional<LoadedScene> read_and_compile(const std::string& path, const Recor
   const std::string what = path.ends_with(kSceneSuffix) ? "the scene's XML" : "the scene";
   within_memory(whole_file, what, diagnostics,
                 [&] { description = reader.read(path, files, scene_arguments(options), diagnostics); });
+  return description;
+}
+
+std::optional<LoadedScene> read_and_compile(const std::string& path, const RecordedFiles& files,
+                                            const LoadOptions& options, Diagnostics& diagnostics) {
+  const std::optional<Description> description = read_scene_file(path, files, options, diagnostics);
   if (!description) return std::nullopt;
   return compile(*description, files, options, diagnostics);
 }
@@ -127,6 +135,32 @@ std::optional<LoadedScene> build_scene(const Description& description, const Loa
     if (scene) scene->info.hash = fingerprint_of(description, scene->info.hash);
     return scene;
   });
+}
+
+Result<std::vector<std::string>> convert_scene(const SceneSource& source, const std::string& path,
+                                               const LoadOptions& options) {
+  Diagnostics diagnostics(options.log);
+  if (!path.ends_with(kSceneSuffix)) {
+    diagnostics.error({}, fmt::format("cannot write a scene to {}: its name tells no format", quoted(path, 200)),
+                      ".xml");
+    return diagnostics;
+  }
+  std::vector<std::string> written;
+  counted(options, diagnostics, [&](const LoadOptions& in_budget) -> std::optional<LoadedScene> {
+    const auto files =
+        source.files.empty() ? std::make_unique<FileSystem>() : std::make_unique<MemoryFiles>(source.files);
+    const std::string found = source.files.empty() ? find_scene(source.path, *files, diagnostics) : source.path;
+    if (found.empty()) return std::nullopt;
+    const auto description = read_scene_file(found, *files, in_budget, diagnostics);
+    if (!description || diagnostics.has_errors()) return std::nullopt;
+    SourceLocation whole_file;
+    whole_file.file = found;
+    within_memory(whole_file, "writing the scene", diagnostics,
+                  [&] { written = write_mitsuba_xml(*description, path, *files, diagnostics); });
+    return std::nullopt;
+  });
+  if (diagnostics.has_errors()) return diagnostics;
+  return {std::move(written), std::move(diagnostics)};
 }
 
 std::vector<SceneFormat> scene_formats() {

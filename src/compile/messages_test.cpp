@@ -28,7 +28,7 @@ TEST(Messages, UnknownPlugin) {
             R"(scene.xml:9:17: error: unknown bsdf 'difuse', did you mean 'diffuse'?
     9 |     <bsdf type="difuse"/>
       |                 ^~~~~~
-accepted: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, normalmap, null, plastic, principled, principledthin, roughconductor, roughdielectric, roughplastic, thindielectric, twosided
+accepted: blendbsdf, bumpmap, conductor, dielectric, diffuse, gltf, mask, normalmap, null, plastic, principled, principledthin, roughconductor, roughdielectric, roughplastic, thindielectric, twosided
 )");
 }
 
@@ -39,7 +39,7 @@ TEST(Messages, PluginToCome) {
             R"(scene.xml:9:17: error: bsdf 'hair' is not supported yet
     9 |     <bsdf type="hair"/>
       |                 ^~~~
-accepted: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, normalmap, null, plastic, principled, principledthin, roughconductor, roughdielectric, roughplastic, thindielectric, twosided
+accepted: blendbsdf, bumpmap, conductor, dielectric, diffuse, gltf, mask, normalmap, null, plastic, principled, principledthin, roughconductor, roughdielectric, roughplastic, thindielectric, twosided
 )");
 }
 

@@ -16,6 +16,7 @@
 #include "formats/mesh_complaints.h"
 #include "formats/mesh_flaws.h"
 #include "formats/mesh_readers.h"
+#include "formats/obj_materials.h"
 #include "formats/polygon.h"
 #include "scene/description.h"
 
@@ -31,8 +32,11 @@ struct Corner {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, const std::string& path, Diagnostics& diagnostics)
-      : at_(bytes.data()), end_(bytes.data() + bytes.size()), complaints_(path, bytes, diagnostics) {}
+  ObjReader(std::string_view bytes, const std::string& path, Diagnostics& diagnostics, ObjMaterials* materials)
+      : at_(bytes.data()),
+        end_(bytes.data() + bytes.size()),
+        complaints_(path, bytes, diagnostics),
+        materials_(materials) {}
 
   std::optional<MeshData> read() {
     skip_byte_order_mark();
@@ -49,6 +53,7 @@ class ObjReader {
     warn_of_intricate(cutter_, complaints_);
     fill_in_absent();
     MeshData mesh = assemble();
+    materials_.give_to(mesh);
     leave_out_not_finite(mesh);
     return mesh;
   }
@@ -119,7 +124,16 @@ class ObjReader {
       numbers(texcoords_, keyword, 1, std::numeric_limits<float>::max());
     } else if (keyword == "f") {
       face(keyword);
+      materials_.note(corners_.size() / 3);
+    } else if (materials_.takes(keyword)) {
+      materials_.statement(keyword, rest_of_line());
     }
+  }
+
+  std::string rest_of_line() const {
+    const char* stop = at_;
+    while (stop < end_ && !is_break(*stop)) ++stop;
+    return std::string(trim({at_, static_cast<std::size_t>(stop - at_)}));
   }
 
   // As many numbers as an element has, of which `required` must be there; what follows (w, colours) is skipped.
@@ -350,6 +364,7 @@ class ObjReader {
   const char* at_;
   const char* end_;
   MeshComplaints complaints_;
+  ObjMaterialNotes materials_;
   Array<std::array<float, 3>> positions_, normals_;
   Array<std::array<float, 2>> texcoords_;
   Array<Corner> corners_;  ///< three for every triangle
@@ -361,15 +376,25 @@ class ObjReader {
   bool has_texcoords_ = false, has_normals_ = false;
 };
 
-}  // namespace
-
-std::optional<MeshData> read_obj(std::string_view bytes, const std::string& path, Diagnostics& diagnostics) {
+std::optional<MeshData> read(std::string_view bytes, const std::string& path, Diagnostics& diagnostics,
+                             ObjMaterials* materials) {
   try {
-    return ObjReader(bytes, path, diagnostics).read();
+    return ObjReader(bytes, path, diagnostics, materials).read();
   } catch (const std::bad_alloc&) {
     MeshComplaints(path, bytes, diagnostics).about_file("the mesh does not fit into memory");
     return std::nullopt;
   }
+}
+
+}  // namespace
+
+std::optional<MeshData> read_obj(std::string_view bytes, const std::string& path, Diagnostics& diagnostics) {
+  return read(bytes, path, diagnostics, nullptr);
+}
+
+std::optional<MeshData> read_obj_with_materials(std::string_view bytes, const std::string& path,
+                                                Diagnostics& diagnostics, ObjMaterials& materials) {
+  return read(bytes, path, diagnostics, &materials);
 }
 
 }  // namespace norrsken

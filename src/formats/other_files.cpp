@@ -228,7 +228,7 @@ std::optional<OtherFile> recognise_other_file(const std::string& path, std::stri
     return std::nullopt;  // XML in another encoding
   if (text.starts_with('{') || text.starts_with('[')) {
     if (contains(text, "\"asset\"") && (contains(text, "\"version\"") || has_extension(path, ".gltf")))
-      return is("a glTF scene", kByBlender);
+      return is("a glTF scene", "a scene of Mitsuba's XML here; glTF's are scenes of their own, named .gltf or .glb");
     if (!has_extension(path, ".pbrt")) return is("JSON", "a scene of Mitsuba's XML");
   }
   if (text.starts_with("version https://git-lfs"))

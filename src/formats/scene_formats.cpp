@@ -7,6 +7,8 @@
 #include <cstdint>
 
 #include "base/text.h"
+#include "formats/bare_mesh.h"
+#include "formats/gltf/read_gltf.h"
 #include "formats/mitsuba_xml.h"
 #include "formats/pbrt/read_pbrt.h"
 
@@ -33,11 +35,30 @@ std::optional<Description> read_pbrt_scene(const std::string& path, const FileSy
   return read_pbrt(path, files, diagnostics);
 }
 
+std::optional<Description> read_gltf_scene(const std::string& path, const FileSystem& files,
+                                           const SceneArguments& arguments, Diagnostics& diagnostics) {
+  return read_gltf(path, files, arguments.parameters, diagnostics);
+}
+
+std::optional<Description> read_mesh_scene(const std::string& path, const FileSystem& files,
+                                           const SceneArguments& arguments, Diagnostics& diagnostics) {
+  for (const auto& [name, value] : arguments.parameters)
+    diagnostics.error({}, fmt::format("-D{}: meshes have no parameters", name));
+  return read_bare_mesh(path, files, diagnostics);
+}
+
+/// Nothing that text of another format would not begin with, too.
+bool looks_like_nothing(std::string_view /*bytes*/) { return false; }
+
 }  // namespace
 
 std::span<const SceneReader> scene_readers() {
   static const std::vector<SceneReader> readers = {{"Mitsuba XML", {".xml"}, looks_like_xml, read_xml},
-                                                   {"pbrt", {".pbrt", ".pbrt.gz"}, looks_like_pbrt, read_pbrt_scene}};
+                                                   {"pbrt", {".pbrt", ".pbrt.gz"}, looks_like_pbrt, read_pbrt_scene},
+                                                   {"glTF", {".gltf", ".glb"}, looks_like_gltf, read_gltf_scene},
+                                                   {"PLY", {".ply"}, looks_like_ply, read_mesh_scene},
+                                                   {"OBJ", {".obj"}, looks_like_nothing, read_mesh_scene},
+                                                   {"STL", {".stl"}, looks_like_stl, read_mesh_scene}};
   return readers;
 }
 

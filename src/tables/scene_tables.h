@@ -34,7 +34,8 @@ inline constexpr std::uint32_t kModelCount = 1
 /// The models whose samples may have an `eta` other than 1.
 inline constexpr std::uint32_t kRefractingKinds = 1u << static_cast<std::uint32_t>(BsdfKind::dielectric) |
                                                   1u << static_cast<std::uint32_t>(BsdfKind::roughdielectric) |
-                                                  1u << static_cast<std::uint32_t>(BsdfKind::principled);
+                                                  1u << static_cast<std::uint32_t>(BsdfKind::principled) |
+                                                  1u << static_cast<std::uint32_t>(BsdfKind::gltf);
 /// Bump and normal maps one inside the other: as many as a hit remembers.
 inline constexpr std::uint32_t kMostMaps = 4;
 /// Of maps: normals that turn away from the viewer are folded back; light on bumps ends softly; this is the map as it is

@@ -1,5 +1,6 @@
 // Everything that include/norrsken offers, as somebody else's program uses it: through the headers and the library alone.
 #include <norrsken/compare.h>
+#include <norrsken/convert.h>
 #include <norrsken/description.h>
 #include <norrsken/image.h>
 #include <norrsken/merge.h>
@@ -70,6 +71,8 @@ void loads_and_renders() {
   expect(render->image(false, norrsken::ImageRegion{4, 4, 8, 8}).height == 8, "a part of the image");
 
   const norrsken::MergedRender merged = value_of(norrsken::merge_renders({"consumer.part"}));
+  const auto converted = value_of(norrsken::convert_scene(norrsken::SceneSource::file("hexagon_room"), "consumer.xml"));
+  expect(converted.back() == "consumer.xml", "a scene is converted");
   expect(norrsken::write_image("consumer.exr", merged.image).error.empty(), "an image is written");
   const norrsken::Image read = value_of(norrsken::read_image("consumer.exr"));
   const norrsken::Comparison comparison = value_of(norrsken::compare(read, merged.image));
