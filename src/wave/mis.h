@@ -20,7 +20,13 @@ NORRSKEN_INLINE Float weight_of_found(const SceneView& scene, UInt light, const 
   if (none(competed)) return 1.0f;
   const Float light_samples(static_cast<float>(scene.integrator.emitter_samples));
   const Float bsdf_samples(static_cast<float>(scene.integrator.bsdf_samples));
-  const Float light_pdf = light_pdf_sa(scene, light, copied(ray.origin), copied(ray.direction), distance, competed);
+  // Light was sampled where the path last scattered, however many boundaries of media lie between.
+  Vec3f reference = ray.origin;
+  if (scene.volumetric) {
+    reference = fma(ray.direction, -ray.travelled, reference);
+    distance = distance + ray.travelled;
+  }
+  const Float light_pdf = light_pdf_sa(scene, light, copied(reference), copied(ray.direction), distance, competed);
   return select(competed, power_heuristic(bsdf_samples, ray.pdf_sa, light_samples, light_pdf), 1.0f);
 }
 
