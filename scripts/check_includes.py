@@ -14,7 +14,7 @@ import tempfile
 
 # The plugin families. A file of one never includes another's but where the table says so. The models of a family, which
 # are what its models.h includes, never include each other: only models.h and a model's own files include it.
-FAMILIES = ["bsdf", "camera", "integrator", "light", "rfilter", "sampler", "shape", "texture"]
+FAMILIES = ["bsdf", "camera", "integrator", "light", "medium", "rfilter", "sampler", "shape", "texture"]
 
 PUBLIC = "norrsken"  # include/norrsken
 
@@ -27,6 +27,7 @@ KERNEL_ROOMS = {
     **{family: KERNEL_BASE for family in FAMILIES},
     "bsdf": KERNEL_BASE + ["texture"],            # whose parameters may be textures
     "light": KERNEL_BASE + ["shape", "texture"],  # which may have the form of any shape
+    "medium": KERNEL_BASE + ["texture"],          # whose slots it reads
     "wave": KERNEL_BASE + FAMILIES + ["accel"],
 }
 HOST_ROOMS = {

@@ -38,8 +38,8 @@ const char* name_of(norrsken::PluginParameter::Type type) {
 }
 
 void print(const norrsken::PluginParameter& p) {
-  std::printf("    {\"name\": %s, \"type\": \"%s\", \"texture\": %s, \"required\": %s, \"default\": %s, \"choices\": %s,\n",
-              quoted(p.name).c_str(), name_of(p.type), p.may_be_texture ? "true" : "false",
+  std::printf("    {\"name\": %s, \"type\": \"%s\", \"texture\": %s, \"volume\": %s, \"required\": %s, \"default\": %s, \"choices\": %s,\n",
+              quoted(p.name).c_str(), name_of(p.type), p.may_be_texture ? "true" : "false", p.may_be_volume ? "true" : "false",
               p.is_required ? "true" : "false", quoted(p.fallback).c_str(), list(p.choices).c_str());
   std::printf("     \"min\": %s, \"max\": %s, \"min_belongs\": %s, \"max_belongs\": %s, \"clamped\": %s,\n", number(p.min).c_str(),
               number(p.max).c_str(), p.min_belongs ? "true" : "false", p.max_belongs ? "true" : "false",

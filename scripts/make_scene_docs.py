@@ -35,6 +35,9 @@ FAMILIES = [
     ("Samplers", "sampler", "sampler", ["sampler"], None),
     ("BSDFs", "bsdf", "bsdf", ["bsdf", "bsdf_resolved", "bsdf_adapter"], None),
     ("Textures", "texture", "texture", ["texture"], None),
+    ("Media", "medium", "medium", ["medium"], None),
+    ("Phase functions", "medium", "phase", ["phase"], None),
+    ("Volumes", "medium", "volume", ["volume"], None),
     ("Emitters", "light", "emitter", ["emitter"], "light_host.h"),
     ("Shapes", "shape", "shape", ["shape"], "mesh_host.h"),
 ]
@@ -180,6 +183,8 @@ def row_text(parameter):
         kind = parameter["type"]
         if parameter["texture"] and kind != "texture":
             kind += " or texture"
+        if parameter["volume"]:
+            kind += " or volume"
         clamped = "else clamped with a warning" if parameter["clamped"] and range_of(parameter) else ""
         text = ", ".join(filter(None, [kind, parameter["unit"], range_of(parameter), clamped]))
         default = default_of(parameter)

@@ -124,6 +124,17 @@ void tell_dropped(const Arguments& arguments, const RenderStatistics& statistics
                          replay_command(arguments.scene, arguments.seed, statistics, first.x, first.y, first.sample)));
 }
 
+/// Rays that came to a medium's boundary in another medium: the scene says what it does not mean.
+void tell_wrong_media(const RenderStatistics& statistics) {
+  if (statistics.wrong_media == 0) return;
+  const std::string& id = statistics.wrong_medium_shape_id;
+  print_warning(fmt::format(
+      "{} ray{} came to the boundary of a medium in another medium than the one that lies there, first at {}: does the "
+      "sensor stand in a medium, is a mesh open, or do shapes overlap without saying their 'exterior'?",
+      statistics.wrong_media, statistics.wrong_media == 1 ? "" : "s",
+      id.empty() ? fmt::format("shape {}", statistics.wrong_medium_shape) : fmt::format("shape '{}'", id)));
+}
+
 /// Writes every file that can be written, tells what is wrong with the others, and returns those written.
 std::vector<std::string> write_outputs(const Arguments& arguments, const Render& rendering) {
   const Image image = rendering.image(arguments.layers || arguments.features);
@@ -290,7 +301,7 @@ ExitStatus render(Arguments arguments) {
   std::vector<std::string> written;
   if (statistics.has_image) written = write_outputs(arguments, *rendering);
   if (!statistics.checkpoint_error.empty()) print_error(statistics.checkpoint_error);
-  if (!arguments.quiet) tell_dropped(arguments, statistics);
+  if (!arguments.quiet) tell_dropped(arguments, statistics), tell_wrong_media(statistics);
   tell_done(arguments, info, statistics, written);
   if (!statistics.failure.empty()) throw Failure(ExitStatus::internal, statistics.failure);
   const bool all_written = !statistics.has_image || written.size() == arguments.outputs.size();

@@ -14,6 +14,7 @@ struct PluginParameter {
   std::string name;
   Type type = Type::texture;
   bool may_be_texture = false;       ///< a texture may stand in place of the number or colour
+  bool may_be_volume = false;        ///< a volume may stand in place of the number or colour
   bool is_required = false;          ///< otherwise `fallback` is taken where it is not given
   std::string fallback = {};         ///< as scene files write it; empty: none, or it depends on others
   std::vector<std::string> choices;  ///< of a text that is one of some words

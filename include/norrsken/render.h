@@ -67,7 +67,12 @@ struct RenderStatistics {
   std::uint64_t shadow_rays = 0;      ///< rays asked whether anything is in between
   std::uint64_t dropped_samples = 0;
   std::vector<DroppedSample> dropped;  ///< the first few of them
-  bool samples_of_pixels = true;  ///< false: paths begin at the lights, and a sample's pixel is where it is counted
+  /// Rays that came to the boundary of a medium in another medium than the one that lies there, as behind an open mesh or in
+  /// shapes that overlap, and the first shape where any did.
+  std::uint64_t wrong_media = 0;
+  int wrong_medium_shape = -1;        ///< counted as the scene's shapes are
+  std::string wrong_medium_shape_id;  ///< may be empty
+  bool samples_of_pixels = true;      ///< false: paths begin at the lights, and a sample's pixel is where it is counted
   double seconds = 0;
   RelativeError error = {};
   bool cancelled = false;  ///< before the end

@@ -11,6 +11,8 @@
 //   static Float pdf_sa(const Parameters&, wo, wi);
 //   static BsdfSample sample(const Parameters&, wo, Float lobe, Vec2f direction);
 //   static Color albedo(const Parameters&);    for the feature layer
+//   static Color straight_on(const Parameters&, wo);    only of some delta models: the share of light that passes as if
+//                                                       nothing were there. They scatter by that or by reflection
 //   static Float refracted_eta(const Parameters&);    only if evaluate refracts: index of refraction beyond over this side
 //   static Mask transmits(const Parameters&);         only if evaluate may be other than 0 for wi.z < 0: where it may be
 // Of a model with both, evaluate and pdf_sa leave the delta part out. wi.z < 0 is transmission.

@@ -24,6 +24,8 @@ struct Null {
     return {-wo, white(), 0.0f, wo.z == wo.z};
   }
 
+  static NORRSKEN_INLINE Color straight_on(const Parameters&, const Vec3f&) { return white(); }
+
   static NORRSKEN_INLINE Color albedo(const Parameters&) { return white(); }
 };
 

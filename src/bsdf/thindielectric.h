@@ -34,9 +34,17 @@ struct ThinDielectric {
 
   static NORRSKEN_INLINE Float pdf_sa(const Parameters&, const Vec3f&, const Vec3f&) { return 0.0f; }
 
-  static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float lobe, Vec2f) {
+  static NORRSKEN_INLINE Float reflectance(const Parameters& p, const Vec3f& wo) {
     const Float r = fresnel_dielectric(wo.z, p.eta).reflectance;
-    const Mask reflects = lobe < (r + r) / (1.0f + r);
+    return (r + r) / (1.0f + r);
+  }
+
+  static NORRSKEN_INLINE Color straight_on(const Parameters& p, const Vec3f& wo) {
+    return p.specular_transmittance * (1.0f - reflectance(p, wo));
+  }
+
+  static NORRSKEN_INLINE BsdfSample sample(const Parameters& p, const Vec3f& wo, Float lobe, Vec2f) {
+    const Mask reflects = lobe < reflectance(p, wo);
     return {{-wo.x, -wo.y, select(reflects, wo.z, -wo.z)},
             select(reflects, p.specular_reflectance, p.specular_transmittance),
             0.0f,

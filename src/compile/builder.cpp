@@ -47,9 +47,16 @@ Variation variation_of(const Texture& texture) {
 void Builder::refuse_kinds_to_come(Parameters& parameters) {
   for (const Node::Child& child : parameters.node().children) {
     const std::string& kind = child.node->kind;
-    if (kind != "medium" && kind != "volume" && kind != "texture") continue;
-    complain_about_plugin(*child.node, {kind == "texture" ? "rgb, spectrum or float" : "a scene without " + kind},
-                          diagnostics_);
+    if (kind == "volume") {
+      diagnostics_.error(
+          child.location,
+          fmt::format("a volume stands in {} {}", parameters.node().kind, quoted(parameters.node().plugin)),
+          "a volume inside of a medium");
+    } else if (kind == "texture") {
+      complain_about_plugin(*child.node, {"rgb, spectrum or float"}, diagnostics_);
+    } else {
+      continue;
+    }
     parameters.children(kind);  // said enough about those
   }
 }
@@ -196,7 +203,7 @@ void Builder::summarise() {
   info.memory.textures = bytes_of(t.texels);
   info.memory.other_tables = bytes_of(t.parameters) + bytes_of(t.lights) + bytes_of(t.primitive_lights) +
                              bytes_of(t.light_nodes) + bytes_of(t.light_leaves) + bytes_of(t.lights_around) +
-                             bytes_of(t.filter);
+                             bytes_of(t.filter) + bytes_of(t.media) + bytes_of(t.volumes);
   info.memory.acceleration = acceleration_bytes(t);
   if (const auto& budget = MemoryScope::current()) info.memory.loading = budget->peak();
 }
@@ -221,6 +228,11 @@ LoadedScene Builder::build(const LoadOptions& options) {
   }
   for_each("shape", [&](const Node& node) { compile_shape(node); });
   for (const Node* emitter : emitters_of_scene(p, inside)) compile_emitter(*emitter, kNone);
+  for (const Node::Child* sensor : p.children("sensor")) {
+    for (const Node::Child& child : sensor->node->children) {
+      if (child.node->kind == "medium") medium(*child.node);
+    }
+  }
   take_definitions(p, inside);
   p.finish();
   compile_default_camera();

@@ -21,6 +21,7 @@
 #include "compile/geometry_builder.h"
 #include "compile/images.h"
 #include "compile/light_choice.h"
+#include "compile/media.h"
 #include "compile/mesh_attributes.h"
 #include "compile/plugin_table.h"
 #include "compile/shapes.h"
@@ -40,7 +41,8 @@ class Builder {
   /// Compiles the whole scene; look at the diagnostics before using what comes out.
   LoadedScene build(const LoadOptions& options);
   /// The frame alone, of a description that need have no more than sensors and integrators.
-  SceneFrame build_frame(const ViewOptions& view);
+  /// `media`: those of the scene, where its sensors may stand.
+  SceneFrame build_frame(const ViewOptions& view, const std::map<const Node*, std::uint32_t>& media);
 
   // --- for the families' tools (plugin_tools.h) ----------------------------------------------------------------------
   const FileSystem& files() const { return files_; }
@@ -77,6 +79,10 @@ class Builder {
   /// The group of shapes that a `shapegroup` node is; one that several instances refer to is compiled once.
   std::uint32_t shape_group(const Node& node);
   GeometryBuilder& geometry() { return geometry_; }
+  /// The medium of a `medium` node, its phase function, and a volume; each is compiled once. kNone after a complaint.
+  std::uint32_t medium(const Node& node);
+  PhaseWord phase(const Node& node);
+  Volume volume(const Node& node);
   /// The settings of an integrator inside another one.
   IntegratorSettings integrator(const Node& node);
   /// What the integrator does about lights. Tables that depend on it serve no other integrator: the rest of the scene
@@ -92,7 +98,7 @@ class Builder {
 
  private:
   Parameters parameters(const Node& node) { return {node, description_, files_, diagnostics_}; }
-  /// Complains about media, textures and volumes by name; for nodes whose children's names mean nothing yet.
+  /// Complains about textures and volumes by name; for nodes whose children's names mean nothing yet.
   void refuse_kinds_to_come(Parameters& parameters);
   /// The texture of that name, if it has one, within its range.
   std::optional<Texture> texture_of(Parameters& p, std::string_view name, const Range& range);
@@ -117,6 +123,10 @@ class Builder {
   /// A texture below a node that looks up texture coordinates, or null.
   const Node* texture_by_uv(const Node& node);
   void compile_emitter(const Node& node, std::uint32_t shape);
+  /// Reads what lies on either side of a shape.
+  void compile_media_of(Parameters& shape, ShapeRecord& record);
+  /// The one that an emitter or a sensor stands in, or kNone.
+  std::uint32_t medium_around(Parameters& p);
   void choose_lights();
   /// Remembers the shape that was added last, if the camera cannot see that far.
   void remember_if_beyond_view(const Node& node);
@@ -147,6 +157,9 @@ class Builder {
   MeshAttributes attributes_{scene_.tables};
   std::map<const Node*, Material> materials_;
   std::map<const Node*, Texture> textures_;
+  std::map<const Node*, PhaseWord> phases_;
+  std::map<const Node*, Volume> volumes_;
+  int phase_depth_ = 0;
   std::map<std::tuple<TextureWord, double, double>, Texture> clamped_textures_;
   std::map<const Node*, const Node*> textures_by_uv_;
   std::optional<Material> default_material_;

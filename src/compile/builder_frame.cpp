@@ -234,6 +234,7 @@ void Builder::compile_sensor(Parameters& scene, const ViewOptions& view, bool re
 void Builder::compile_camera(Parameters& sensor, CompileSensor* compile) {
   Sensors sensors(*this);
   tables().camera = compile(sensor, sensors, tables().film);
+  tables().camera.medium = medium_around(sensor);
   view_place_ = sensor.where("far_clip");
   refuse_kinds_to_come(sensor);
   sensor.finish();
@@ -263,7 +264,8 @@ void Builder::compile_frame(Parameters& scene, const std::set<const Node*>& insi
   scene_.frame_items = scene_.info.items.size();
 }
 
-SceneFrame Builder::build_frame(const ViewOptions& view) {
+SceneFrame Builder::build_frame(const ViewOptions& view, const std::map<const Node*, std::uint32_t>& media) {
+  scene_.media = media;
   is_frame_alone_ = true;
   Parameters p = parameters(*description_.scene);
   compile_frame(p, nodes_inside_of_others(*description_.scene), view, /*reserve=*/false);

@@ -71,6 +71,7 @@ void Builder::compile_emitter(const Node& node, std::uint32_t shape) {
   if (!plugin) return;
   Parameters p = parameters(node);
   sampling_weight_ = read_sampling_weight(p);
+  medium_around(p);  // which paths from the camera need not know
   const std::size_t before = tables().lights.size();
   Lights lights(*this);
   within_memory(node.location, "emitter " + quoted(node.plugin), diagnostics_,
@@ -154,6 +155,7 @@ void Builder::compile_shape(Parameters& p, CompileShape* compile) {
     const std::uint32_t first_triangle = tables().triangle_count();
     const std::uint32_t shape = geometry_.add(std::move(geometry), material);
     attributes_.add(shape, first_vertex, first_triangle, attributes);
+    compile_media_of(p, tables().shapes[shape]);
     if (!node.id.empty()) {
       scene_.shape_ids.resize(shape + 1);
       scene_.shape_ids[shape] = node.id;

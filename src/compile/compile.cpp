@@ -187,7 +187,8 @@ std::optional<SceneFrame> compile_frame(const LoadedScene& scene, const SceneFra
 
   std::optional<SceneFrame> made;
   const FileSystem files;  // neither sensors nor integrators name any
-  if (!built(scene.outline, diagnostics, [&] { made = Builder(scene.outline, files, diagnostics).build_frame(view); }))
+  if (!built(scene.outline, diagnostics,
+             [&] { made = Builder(scene.outline, files, diagnostics).build_frame(view, scene.media); }))
     return std::nullopt;
   if (const std::string difference = scene.asked.difference(made->integrator); !difference.empty()) {
     diagnostics.error({},

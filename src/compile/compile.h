@@ -1,6 +1,7 @@
 // From the description to the tables: gives every plugin name its meaning.
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "norrsken/diagnostics.h"
@@ -47,7 +48,8 @@ struct LoadedScene {
   SceneLayers layers;
   std::vector<std::string> shape_ids;  ///< those that the scene gives its shapes, by their indices; may be shorter
   SceneInfo info;                      ///< all but `accelerator`, which is chosen when rendering
-  std::size_t frame_items = 0;         ///< of `info.items`: the first so many are of the frame
+  std::map<const Node*, std::uint32_t> media;  ///< which of the tables' a node is
+  std::size_t frame_items = 0;                 ///< of `info.items`: the first so many are of the frame
   AskedOfIntegrator asked;
   /// Sensors and integrators alone: what other frames are made of.
   Description outline;

@@ -72,8 +72,7 @@ TEST(Compile, WhatNothingUsesNeedNotBeSupported) {
        {std::string(R"(<bsdf type="hair" id="fur"/><bsdf type="twosided" id="b"><ref id="fur"/></bsdf>)"
                     R"(<shape type="sphere"><ref id="b"/></shape>)"),
         group + R"(<shape type="instance"><ref id="g"/></shape>)",
-        std::string(
-            R"(<medium type="homogeneous" id="m"/><shape type="sphere"><ref id="m" name="interior"/></shape>)")})
+        std::string(R"(<medium type="foggy" id="m"/><shape type="sphere"><ref id="m" name="interior"/></shape>)")})
     EXPECT_TRUE(compile_elements(scene + used).diagnostics.has_errors()) << used;
 }
 

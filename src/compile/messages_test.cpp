@@ -265,13 +265,13 @@ accepted: bsplinecurve, cube, cylinder, disk, instance, linearcurve, mesh, obj, 
 
 TEST(Messages, KindsToCome) {
   EXPECT_EQ(complaints(R"(  <shape type="sphere">
-    <medium type="homogeneous"/>
+    <volume type="gridvolume"/>
   </shape>
   <volume type="gridvolume"/>)"),
-            R"(scene.xml:9:19: error: medium 'homogeneous' is not supported yet
-    9 |     <medium type="homogeneous"/>
-      |                   ^~~~~~~~~~~
-accepted: a scene without medium
+            R"(scene.xml:9:5: error: a volume stands in shape 'sphere'
+    9 |     <volume type="gridvolume"/>
+      |     ^~~~~~~
+accepted: a volume inside of a medium
 scene.xml:11:3: warning: nothing refers to volume 'gridvolume', which has no effect by itself
    11 |   <volume type="gridvolume"/>
       |   ^~~~~~~

@@ -59,7 +59,7 @@ std::vector<PluginInfo> plugins() {
       "sensor", sensor_plugins(),
       [&](auto* compile, Parameters& p, Sensors& sensors) {
         compile(p, sensors, film);
-        for (const char* kind : {"film", "sampler"}) p.children(kind);
+        for (const char* kind : {"film", "medium", "sampler"}) p.children(kind);
       },
       all);
   add_family<Films>("film", film_plugins(), ask, all);
@@ -74,10 +74,14 @@ std::vector<PluginInfo> plugins() {
       "sampler", sampler_plugins(), [](auto* compile, Parameters& p, PluginTools&) { compile(p); }, all);
   add_family<Materials>("bsdf", bsdf_plugins(), ask, all);
   add_family<Textures>("texture", texture_plugins(), ask, all);
+  add_family<Media>("medium", medium_plugins(), ask, all);
+  add_family<Media>("phase", phase_plugins(), ask, all);
+  add_family<Media>("volume", volume_plugins(), ask, all);
   add_family<Lights>(
       "emitter", emitter_plugins(),
       [](auto* compile, Parameters& p, Lights& lights) {
         read_sampling_weight(p);
+        p.children("medium");
         compile(p, lights, kNone);
       },
       all);
@@ -86,7 +90,7 @@ std::vector<PluginInfo> plugins() {
       [](auto* compile, Parameters& p, Shapes& shapes) {
         const std::optional<ShapeGeometry> geometry = compile(p, shapes);
         if (geometry && geometry->of_shapes) return;
-        for (const char* kind : {"bsdf", "emitter"}) p.children(kind);
+        for (const char* kind : {"bsdf", "emitter", "medium"}) p.children(kind);
       },
       all);
   return all;

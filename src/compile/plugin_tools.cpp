@@ -7,6 +7,7 @@
 #include "compile/frame_tools.h"
 #include "compile/lights.h"
 #include "compile/materials.h"
+#include "compile/media.h"
 #include "compile/shapes.h"
 #include "compile/textures.h"
 
@@ -31,6 +32,12 @@ ImageStore& Textures::images() { return builder_.images(); }
 void Textures::look_up_attribute(const std::string& name, TextureWord texture, std::uint32_t floats_before) {
   builder_.attributes().look_up(name, (texture & kTextureOffsetMask) + floats_before);
 }
+
+const FileSystem& Media::files() const { return builder_.files(); }
+SceneTables& Media::tables() { return builder_.tables(); }
+std::uint32_t Media::store(std::span<const float> block) { return builder_.add_parameters(block); }
+PhaseWord Media::phase(const Node& node) { return builder_.phase(node); }
+Volume Media::volume(const Node& node) { return builder_.volume(node); }
 
 std::uint32_t Lights::store(std::span<const float> block) { return builder_.add_parameters(block); }
 std::uint32_t Lights::add(const LightRecord& light, const LightPower& power) {

@@ -12,6 +12,9 @@ namespace {
 // What may stand below a definition that a scene refers to.
 std::vector<std::string> supported_plugins(const std::string& kind) {
   if (kind == "bsdf") return names_of(bsdf_plugins());
+  if (kind == "medium") return names_of(medium_plugins());
+  if (kind == "phase") return names_of(phase_plugins());
+  if (kind == "volume") return names_of(volume_plugins());
   if (kind == "emitter") return names_of(emitter_plugins());
   if (kind == "shape") return names_of(shape_plugins());
   if (kind == "texture" || kind == "spectrum") return names_of(texture_plugins());
@@ -57,6 +60,33 @@ std::span<const Plugin<CompileTexture>> texture_plugins() {
 #define NORRSKEN_TEXTURE(kind, Model) {#kind, compile_texture_##kind},
 #include "lists/texture.def"
 #undef NORRSKEN_TEXTURE
+  };
+  return kTable;
+}
+
+std::span<const Plugin<CompileMedium>> medium_plugins() {
+  static constexpr Plugin<CompileMedium> kTable[] = {
+#define NORRSKEN_MEDIUM(name) {#name, compile_medium_##name},
+#include "lists/medium.def"
+#undef NORRSKEN_MEDIUM
+  };
+  return kTable;
+}
+
+std::span<const Plugin<CompilePhase>> phase_plugins() {
+  static constexpr Plugin<CompilePhase> kTable[] = {
+#define NORRSKEN_PHASE(kind, Model) {#kind, compile_phase_##kind},
+#include "lists/phase.def"
+#undef NORRSKEN_PHASE
+  };
+  return kTable;
+}
+
+std::span<const Plugin<CompileVolume>> volume_plugins() {
+  static constexpr Plugin<CompileVolume> kTable[] = {
+#define NORRSKEN_VOLUME(name) {#name, compile_volume_##name},
+#include "lists/volume.def"
+#undef NORRSKEN_VOLUME
   };
   return kTable;
 }

@@ -8,6 +8,7 @@
 #include "compile/frame_tools.h"
 #include "compile/lights.h"
 #include "compile/materials.h"
+#include "compile/media.h"
 #include "compile/plugin_table.h"
 #include "compile/shapes.h"
 #include "compile/textures.h"
@@ -23,6 +24,9 @@ bool is_supported(const Node& unused, Diagnostics& diagnostics);
 
 std::span<const Plugin<CompileBsdf>> bsdf_plugins();
 std::span<const Plugin<CompileTexture>> texture_plugins();
+std::span<const Plugin<CompileMedium>> medium_plugins();
+std::span<const Plugin<CompilePhase>> phase_plugins();
+std::span<const Plugin<CompileVolume>> volume_plugins();
 std::span<const Plugin<CompileShape>> shape_plugins();
 std::span<const Plugin<CompileEmitter>> emitter_plugins();
 std::span<const Plugin<CompileSensor>> sensor_plugins();

@@ -19,7 +19,8 @@ static_assert(std::endian::native == std::endian::little, "values are taken as t
 constexpr std::string_view kMagic = "VOL";
 constexpr char kVersion = 3;
 constexpr std::int32_t kFloat32 = 1;
-constexpr std::size_t kIntegersAt = 4, kHeaderBytes = kIntegersAt + 5 * sizeof(std::int32_t) + 6 * sizeof(float);
+constexpr std::size_t kIntegersAt = 4, kBoxAt = kIntegersAt + 5 * sizeof(std::int32_t),
+                      kHeaderBytes = kBoxAt + 6 * sizeof(float);
 
 std::optional<VolumeData> read(std::string_view bytes, MeshComplaints& complaints) {
   const auto refuse = [&](std::string message, std::string accepted) {
@@ -42,6 +43,9 @@ std::optional<VolumeData> read(std::string_view bytes, MeshComplaints& complaint
 
   const auto x = static_cast<std::uint32_t>(nx), y = static_cast<std::uint32_t>(ny), z = static_cast<std::uint32_t>(nz);
   const auto of_each = static_cast<std::uint32_t>(channels);
+  std::array<float, 3> lower, upper;
+  std::memcpy(lower.data(), bytes.data() + kBoxAt, sizeof lower);
+  std::memcpy(upper.data(), bytes.data() + kBoxAt + sizeof lower, sizeof upper);
   bytes.remove_prefix(kHeaderBytes);
   // Divided in turn, because the product may not fit any integer.
   const std::size_t there = bytes.size() / sizeof(float);
@@ -49,7 +53,7 @@ std::optional<VolumeData> read(std::string_view bytes, MeshComplaints& complaint
     return refuse(fmt::format("{} of {} channel{} do not fit the {} bytes behind the header", grid, channels,
                               channels == 1 ? "" : "s", bytes.size()),
                   "4 bytes for each");
-  VolumeData volume{{x, y, z}, of_each, Array<float>(std::size_t{x} * y * z * of_each)};
+  VolumeData volume{{x, y, z}, of_each, Array<float>(std::size_t{x} * y * z * of_each), lower, upper};
   std::memcpy(volume.values.data(), bytes.data(), volume.values.size() * sizeof(float));
   for (std::size_t i = 0; i < volume.values.size() && !complaints.gave_up(); ++i) {
     if (std::isfinite(volume.values[i])) continue;

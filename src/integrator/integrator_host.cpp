@@ -49,10 +49,9 @@ IntegratorSettings read_integrator(Parameters& p) {
 }
 
 IntegratorSettings read_volume_integrator(Parameters& p) {
-  p.diagnostics().note(
-      p.node().plugin_location,
-      fmt::format("integrator {} is 'path' here: the same where there is no medium", quoted(p.node().plugin)));
-  return read_integrator(p);
+  IntegratorSettings settings = read_integrator(p);
+  settings.media = true;
+  return settings;
 }
 
 NestedIntegrator read_nested_integrator(Parameters& p, Integrators& integrators) {

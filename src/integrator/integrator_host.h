@@ -17,7 +17,7 @@ inline constexpr BooleanParameter kHideEmitters{
 
 IntegratorSettings read_integrator(Parameters& p);
 
-/// For integrators of volumes, which are path where there is no medium; a note says so.
+/// For those whose paths are scattered by media, too.
 IntegratorSettings read_volume_integrator(Parameters& p);
 
 /// max_depth, bounces and rr_depth alone.

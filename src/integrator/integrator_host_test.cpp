@@ -227,30 +227,16 @@ TEST(Ptracer, RefusesWhatIsOutOfRangeAndOtherParameters) {
                           "[bounces, hide_emitters, max_depth, rr_depth]"));
 }
 
-TEST(VolumeIntegrators, ArePathWithoutMedia) {
+TEST(VolumeIntegrators, FollowPathsThroughMedia) {
   for (const std::string name : {"volpath", "volpathmis"}) {
     const Compiled c = compile_integrator(integrator(name, integer("max_depth", "7") + integer("rr_depth", "3") +
                                                                R"(<boolean name="hide_emitters" value="true"/>)"));
-    EXPECT_THAT(c.messages(),
-                ElementsAre("note: integrator '" + name + "' is 'path' here: the same where there is no medium"));
+    EXPECT_THAT(c.messages(), IsEmpty());
     EXPECT_EQ(c.tables().integrator.max_depth, 7);
     EXPECT_EQ(c.tables().integrator.rr_depth, 3);
     EXPECT_TRUE(c.tables().integrator.hide_emitters);
-    EXPECT_TRUE(c.tables().integrator.diffuse_bounces);
+    EXPECT_TRUE(c.tables().integrator.media);
   }
-  const std::string medium = R"(<medium type="homogeneous" name="interior"/>)";
-  EXPECT_THAT(compile_elements(integrator("volpath", "") + kSensor + kEmitter + R"(<shape type="sphere">)" + medium +
-                               "</shape>")
-                  .messages(),
-              ::testing::Contains("error: medium 'homogeneous' is not supported yet [a scene without medium]"));
-}
-
-TEST(VolumeIntegrators, AreNothingForACameraInAMedium) {
-  EXPECT_THAT(
-      compile_elements(integrator("volpath", "") +
-                       R"(<sensor type="perspective"><medium type="homogeneous"/></sensor>)" + kShape + kEmitter)
-          .messages(),
-      ::testing::Contains("error: medium 'homogeneous' is not supported yet [a scene without medium]"));
 }
 
 TEST(IntegratorHost, RefusesOthers) {

@@ -1,5 +1,4 @@
-// volpathmis: volpath with multiple importance sampling over the spectrum. Where there is no medium, and media are not
-// supported yet, that is `path`, and so it is rendered.
+// volpathmis: `volpath`, which samples all channels of extinction together here, as this integrator is for.
 #include "integrator/integrator_host.h"
 
 namespace norrsken {

@@ -2,6 +2,7 @@
 #include "isa/entry.h"
 #include "isa/ray_arrays.h"
 #include "wave/schedule.h"
+#include "wave/trace_media.h"
 #include "wave/trace_particles.h"
 
 namespace norrsken::NORRSKEN_ISA {
@@ -20,13 +21,17 @@ void occluded_rays(const SceneView& scene, const RayArrays& arrays, const float*
   }
 }
 
+void trace_any_wave(const SceneView& scene, const WaveJob& job, WaveMemory& memory, WaveCounts& counts) {
+  scene.volumetric ? trace_media(scene, job, memory, counts) : trace_wave(scene, job, memory, counts);
+}
+
 }  // namespace
 
 extern const KernelEntry kEntry;
 const KernelEntry kEntry = {
     .name = NORRSKEN_ISA_NAME,
     .lanes = kLanes,
-    .trace_wave = trace_wave,
+    .trace_wave = trace_any_wave,
     .trace_features = trace_features,
     .trace_particles = trace_particles,
     .accumulate_film = accumulate_film,

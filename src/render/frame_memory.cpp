@@ -12,6 +12,7 @@ std::optional<MemoryReservation> reserve_frame(const LoadedScene& scene, const S
                                                const FilmSettings& film, const SceneLayers& layers, int threads,
                                                Diagnostics& diagnostics) {
   const bool from_lights = frame_of_scene.integrator.from_lights;
+  const WaveNeeds needs = WaveNeeds::of(frame_of_scene.integrator);
   const auto pixels = static_cast<std::uint64_t>(std::int64_t{film.width} * film.height);
   const MemoryScope scope(scene.memory);
   MemoryReservation frame(0);
@@ -22,7 +23,7 @@ std::optional<MemoryReservation> reserve_frame(const LoadedScene& scene, const S
                                          image_bytes_per_pixel(film, layers)));
                   });
     within_memory({}, fmt::format("what {} thread{} work on", threads, threads == 1 ? "" : "s"), diagnostics,
-                  [&] { frame.grow(static_cast<std::uint64_t>(threads) * WaveArena::bytes(kWaveSlots, from_lights)); });
+                  [&] { frame.grow(static_cast<std::uint64_t>(threads) * WaveArena::bytes(kWaveSlots, needs)); });
   } catch (const LoadingStopped&) {
     return std::nullopt;
   }

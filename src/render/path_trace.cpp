@@ -150,12 +150,15 @@ Result<PathTrace> trace_path(const Scene& scene, const RenderOptions& options, i
     diagnostics.error({}, "the paths of integrator 'ptracer' begin at the lights and belong to no pixel",
                       "another integrator");
   }
+  if (frame.integrator.media && !tables.media.empty())
+    diagnostics.error({}, "paths through media are not told vertex by vertex", "a scene without media");
   if (diagnostics.has_errors()) return diagnostics;
 
   const auto accel = scene.state().accel(accel_kind, frame.layers, worker_count(options.threads), diagnostics);
   if (!accel) return diagnostics;
   SceneView view = scene.state().view(frame, accel->view());
   view.sampler.seed += options.seed;
+  view.volumetric = false;
   WaveArena arena(kMaxLanes);
   WaveMemory& memory = arena.memory();
   PathObserver path(view, *kernels);

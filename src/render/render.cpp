@@ -133,6 +133,9 @@ class RenderSession final : public Render {
     }
 
     RenderStatistics s = workers.statistics();
+    const std::vector<std::string>& ids = scene_.tables().shape_ids;
+    const auto wrong = static_cast<std::size_t>(s.wrong_medium_shape);
+    if (s.wrong_media > 0 && wrong < ids.size()) s.wrong_medium_shape_id = ids[wrong];
     s.samples_resumed = resumed;
     s.seconds = watch.seconds();
     s.failure = failure_;

@@ -32,6 +32,13 @@ const T* data_or_one(const Array<T>& values) {
   return values.empty() ? &one : values.data();
 }
 
+/// Whether shadow rays may pass a surface of these kinds: adapters may stand before one that they do.
+bool passes_light(std::uint32_t bsdf_kinds) {
+  constexpr std::uint32_t kPassing =
+      1u << static_cast<std::uint32_t>(BsdfKind::null) | 1u << static_cast<std::uint32_t>(BsdfKind::thindielectric);
+  return (bsdf_kinds & kPassing) != 0;
+}
+
 /// From what has a frame's members: the tables have those of the frame that they were loaded with.
 template <class Frame>
 void set_frame_from(const Frame& frame, const SceneTables& tables, SceneView& view) {
@@ -41,6 +48,8 @@ void set_frame_from(const Frame& frame, const SceneTables& tables, SceneView& vi
   view.sampler = frame.sampler;
   view.integrator = frame.integrator;
   view.integrator.rr_depth = std::min(view.integrator.rr_depth, kLatestRoulette);
+  const bool scatters = !tables.media.empty();
+  view.volumetric = frame.integrator.media && (scatters || passes_light(view.bsdf_kinds));
   // Paths that begin at the lights have no place to choose them for.
   const bool by_place = !tables.light_nodes.empty() && !frame.integrator.from_lights;
   view.light_nodes = by_place ? tables.light_nodes.data() : nullptr;
@@ -189,6 +198,12 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   if (view.any_resolved) view.bsdf_kinds |= tables.bsdf_kinds | 1u << static_cast<std::uint32_t>(BsdfKind::absorb);
   view.refracts = (view.bsdf_kinds & kRefractingKinds) != 0;
   for (const LightRecord& light : tables.lights) view.light_kinds |= 1u << static_cast<std::uint32_t>(light.kind);
+  view.media = data_or_one(tables.media);
+  view.volumes = data_or_one(tables.volumes);
+  for (const MediumRecord& medium : tables.media) {
+    view.any_grid_medium |= medium.sigma_volume != kNone;
+    view.phase_kinds |= 1u << (medium.phase >> 24);
+  }
   view.any_area_light = !tables.primitive_lights.empty();
   view.any_smooth =
       std::any_of(tables.shapes.begin(), tables.shapes.end(), [](const ShapeRecord& s) { return s.smooth != 0; });

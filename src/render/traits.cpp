@@ -13,7 +13,8 @@ namespace {
 template <class Record>
 constexpr bool kIsWords = alignof(Record) == 4 && sizeof(Record) % 4 == 0;
 static_assert(kIsWords<SurfaceRecord> && kIsWords<ShapeRecord> && kIsWords<AnalyticRecord> &&
-              kIsWords<InstanceRecord> && kIsWords<LightRecord> && kIsWords<CameraRecord>);
+              kIsWords<InstanceRecord> && kIsWords<LightRecord> && kIsWords<CameraRecord> && kIsWords<MediumRecord> &&
+              kIsWords<VolumeRecord>);
 
 template <class... Arrays>
 Trait fingerprint(const char* name, const Arrays&... arrays) {
@@ -28,11 +29,12 @@ std::span<const std::uint32_t> words(const std::initializer_list<std::uint32_t>&
 
 std::string describe(const IntegratorSettings& integrator) {
   // Every member: one more does not compile.
-  const auto& [max_depth, rr_depth, emitter_samples, diffuse_bounces, bsdf_samples, distance, hide_emitters,
+  const auto& [max_depth, rr_depth, emitter_samples, diffuse_bounces, bsdf_samples, distance, hide_emitters, media,
                from_lights] = integrator;
   return fmt::format("{} of depth {} with {} light and {} bsdf samples, roulette from {}{}{}",
                      distance      ? "distance"
                      : from_lights ? "paths from the lights"
+                     : media       ? "paths through media"
                                    : "paths",
                      max_depth, emitter_samples, bsdf_samples, rr_depth, diffuse_bounces ? "" : ", mirrors only",
                      hide_emitters ? ", emitters hidden" : "");
@@ -83,6 +85,7 @@ Traits traits_of(const SceneTables& t, const SceneFrame& frame, const SceneView&
                   std::span(&t.radius, 1)),
       fingerprint("materials", t.parameters, words({t.bsdf_kinds, t.texture_kinds})),
       fingerprint("textures", t.texels),
+      fingerprint("media", t.media, t.volumes),
       fingerprint("lights", t.lights, words({t.environment})),
   };
 }

@@ -5,7 +5,7 @@ namespace {
 
 /// Calls visit(queue, stride, capacity) for the queues in memory.
 template <class Visit>
-void for_each_queue(WaveMemory& memory, std::uint32_t slots, bool from_lights, const Visit& visit_queue) {
+void for_each_queue(WaveMemory& memory, std::uint32_t slots, const WaveNeeds& needs, const Visit& visit_queue) {
   const std::uint32_t capacity = (slots + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
   // Compressed stores may write a full register past the end. One more cache line keeps fields from falling into the
   // same cache sets.
@@ -19,26 +19,37 @@ void for_each_queue(WaveMemory& memory, std::uint32_t slots, bool from_lights, c
   visit(memory.found.light_hits, capacity);
   visit(memory.found.misses, capacity);
   visit(memory.shadow_rays, capacity);
-  if (!from_lights) return;
-  visit(memory.connections, capacity);
-  visit(memory.splats, kSplatsPerSlot * capacity);
+  if (needs.connections) {
+    visit(memory.connections, capacity);
+    visit(memory.splats, kSplatsPerSlot * capacity);
+  }
+  if (needs.media) {
+    MediaQueues& media = memory.media;
+    for (auto& scatters : media.scatters) visit(scatters, capacity);
+    visit(media.passed, capacity);
+    visit(media.tracks, capacity);
+    visit(media.next_tracks, capacity);
+    visit(media.next_shadow_rays, capacity);
+    visit(media.shadow_tracks, capacity);
+    visit(media.next_shadow_tracks, capacity);
+  }
 }
 
 }  // namespace
 
-std::uint64_t WaveArena::bytes(std::uint32_t slots, bool from_lights) {
+std::uint64_t WaveArena::bytes(std::uint32_t slots, const WaveNeeds& needs) {
   WaveMemory unused;
   std::uint64_t values = 0;
-  for_each_queue(unused, slots, from_lights, [&](const auto& queue, std::uint32_t stride, std::uint32_t) {
+  for_each_queue(unused, slots, needs, [&](const auto& queue, std::uint32_t stride, std::uint32_t) {
     values += std::uint64_t{queue.kFields} * stride;
   });
   return values * sizeof(float);
 }
 
-WaveArena::WaveArena(std::uint32_t slots, bool from_lights) {
-  block_.resize(bytes(slots, from_lights) / sizeof(float));  // zeros, for lanes beyond a queue's end are read, masked
+WaveArena::WaveArena(std::uint32_t slots, const WaveNeeds& needs) {
+  block_.resize(bytes(slots, needs) / sizeof(float));  // zeros, for lanes beyond a queue's end are read, masked
   float* at = block_.data();
-  for_each_queue(memory_, slots, from_lights, [&](auto& queue, std::uint32_t stride, std::uint32_t capacity) {
+  for_each_queue(memory_, slots, needs, [&](auto& queue, std::uint32_t stride, std::uint32_t capacity) {
     queue = {at, stride, capacity};
     at += std::size_t{queue.kFields} * stride;
   });

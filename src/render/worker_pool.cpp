@@ -183,7 +183,7 @@ WorkerPool::End WorkerPool::run_pass(Pass pass, const WorkPlan& plan, const Tick
   const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(threads_), waves));
   // All memory before the first thread: what runs in the threads cannot fail.
   arenas_.reserve(wanted);
-  while (arenas_.size() < wanted) arenas_.emplace_back(kWaveSlots, scene_.integrator.from_lights);
+  while (arenas_.size() < wanted) arenas_.emplace_back(kWaveSlots, WaveNeeds::of(scene_.integrator));
   std::atomic<std::uint64_t> next_wave{first_wave_};
   JoiningThreads threads(stop_);
   for (std::size_t i = 0; i < wanted; ++i) {
@@ -228,6 +228,8 @@ void WorkerPool::work(Pass pass, const WorkPlan& plan, std::atomic<std::uint64_t
   const std::lock_guard lock(mutex_);
   counts_.closest_rays += counts.closest_rays;
   counts_.shadow_rays += counts.shadow_rays;
+  counts_.wrong_media += counts.wrong_media;
+  counts_.wrong_medium_shape = std::min(counts_.wrong_medium_shape, counts.wrong_medium_shape);
 }
 
 void WorkerPool::add_to_film(Pass pass, const WorkPlan& plan, std::uint64_t wave, const WaveJob& job,
@@ -362,6 +364,8 @@ RenderStatistics WorkerPool::statistics() const {
   s.shadow_rays = counts_.shadow_rays;
   const DroppedSamples& dropped = work_.dropped;
   s.dropped_samples = dropped.count;
+  s.wrong_media = counts_.wrong_media;
+  if (counts_.wrong_media > 0) s.wrong_medium_shape = static_cast<int>(counts_.wrong_medium_shape);
   for (std::uint64_t i = 0; i < std::min<std::uint64_t>(dropped.count, DroppedSamples::kKept); ++i) {
     s.dropped.push_back({static_cast<int>(dropped.pixel[i] % film_.width()),
                          static_cast<int>(dropped.pixel[i] / film_.width()), dropped.sample[i]});

@@ -27,9 +27,17 @@ inline constexpr std::uint32_t kBsdfLobe = 4;       // 1: which part of the BSDF
 inline constexpr std::uint32_t kBsdfDirection = 5;  // 2
 inline constexpr std::uint32_t kRoulette = 7;       // 1
 inline constexpr std::uint32_t kMaterial = 8;       // 1: which of the BSDFs behind a mask or a blend
+inline constexpr std::uint32_t kDistance = 9;       // 1: how far to the next place in a medium that scatters
 inline constexpr std::uint32_t kCount = 10;         // even: pairs stay pairs
 }  // namespace hit_dimension
 
 constexpr std::uint32_t first_dimension_of_hit(std::uint32_t hit) { return hit * hit_dimension::kCount; }
+
+/// What is gone straight through on the way to a hit is met in rounds, each with a set of dimensions of its own: those of
+/// the ray itself are first, those of its hit's shadow rays behind kShadowRounds.
+inline constexpr std::uint32_t kMostRounds = 1u << 12, kShadowRounds = kMostRounds;
+constexpr std::uint32_t first_dimension_of_round(std::uint32_t hit, std::uint32_t round) {
+  return first_dimension_of_hit(hit) + (round << 18);
+}
 
 }  // namespace norrsken

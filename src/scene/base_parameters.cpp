@@ -20,6 +20,7 @@ constexpr BaseParameter kTable[] = {
     {"integrator", "depth", "hide_emitters", Type::boolean, ""},
     {"integrator", "moment", "hide_emitters", Type::boolean, "hide_emitters of the integrator inside"},
     {"integrator", "volpathmis", "use_spectral_mis", Type::boolean, ""},
+    {"medium", "", "has_spectral_extinction", Type::boolean, ""},
     {"scene", "", "allow_thread_reordering", Type::boolean, ""},
     {"scene", "", "compact_acceleration_structures", Type::boolean, ""},
     {"scene", "", "embree_use_robust_intersections", Type::boolean, ""},

@@ -41,6 +41,14 @@ const Node::Child* Parameters::texture(std::string_view name) {
   return child;
 }
 
+const Node::Child* Parameters::volume(std::string_view name) {
+  if (record_) recorded(name).may_be_volume = true;
+  const Node::Child* child = find_child(name);
+  if (!child || child->node->kind != "volume") return nullptr;
+  asked_names_.emplace(name);
+  return child;
+}
+
 std::vector<const Node::Child*> Parameters::children(std::string_view kind) {
   asked_kinds_.emplace(kind);
   if (record_ && std::ranges::find(record_->children, kind) == record_->children.end())

@@ -70,6 +70,8 @@ class Parameters {
   /// The node of that name whose values differ from place to place: a `texture` (or `spectrum`) that `read` has no
   /// number or colour of. Null if there is none.
   const Node::Child* texture(std::string_view name);
+  /// The `volume` of that name. Null if there is none.
+  const Node::Child* volume(std::string_view name);
   /// What programs give in place of a file; null after a complaint, or if it was not given.
   std::shared_ptr<const Mesh> mesh(std::string_view name) {
     return shared<Mesh>(name, "a mesh, in scenes that a program makes");

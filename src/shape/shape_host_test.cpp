@@ -221,8 +221,8 @@ TEST(ShapeHost, SpheresFollowTriangles) {
 TEST(ShapeHost, RefusesWhatDoesNotBelongIntoAShape) {
   EXPECT_THAT(compile_shape(sphere(sphere(""))).messages(),
               ElementsAre("error: unused shape 'sphere' in shape 'sphere' [bsdf, emitter]"));
-  EXPECT_THAT(compile_shape(sphere(R"(<medium type="homogeneous" name="interior"/>)")).messages(),
-              ElementsAre("error: medium 'homogeneous' is not supported yet [a scene without medium]"));
+  EXPECT_THAT(compile_shape(sphere(R"(<medium type="homogeneous" name="inside"/>)")).messages(),
+              ElementsAre("error: a medium of shape 'sphere' is named 'inside' ['interior' or 'exterior']"));
   EXPECT_THAT(compile_shape(sphere(R"(<bsdf type="diffuse"/><bsdf type="diffuse"/>)")).messages(),
               ElementsAre("error: shape 'sphere' has more than one bsdf [one bsdf]"));
   EXPECT_THAT(compile_shape(R"(<shape type="merge"/>)").messages(),

@@ -7,10 +7,9 @@
 #include <cstdint>
 
 #include "base/memory.h"
+#include "tables/medium_tables.h"
 
 namespace norrsken {
-
-inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// Scattering models as kernels tell them apart. Order and names come from src/lists/bsdf.def; `absorb` (no scattering
 /// at all, also the back of a one-sided surface) is always 0. Behind the models come the adapters that are looked
@@ -113,6 +112,9 @@ struct ShapeRecord {
   std::uint32_t group = kNone;              ///< the group it is in, or kNone for the world
   std::uint32_t lights = kNone;             ///< where its primitives begin in `primitive_lights`; kNone: no light
   Variation variation = Variation::none;    ///< for the host alone
+  /// Media behind the surface and before it, where its geometric normal points to: kNone for a vacuum, kSameMedium where it
+  /// bounds none.
+  std::uint32_t interior = kSameMedium, exterior = kSameMedium;
 };
 
 /// Where something with a space of its own stands. Affine maps, row by row; the fourth of each row is the translation.
@@ -197,6 +199,7 @@ struct CameraRecord {
   float forward[3];  ///< unit; near and far are distances along it
   float near_clip, far_clip;
   float lens_x[3], lens_y[3];  ///< thinlens: radii of the lens
+  std::uint32_t medium;        ///< that it stands in, or kNone
 };
 
 enum class SamplerKind : std::uint32_t { independent, sobol };
@@ -255,6 +258,7 @@ struct IntegratorSettings {
   int bsdf_samples = 1;         ///< directions sampled at the first hit; 0: none, light sampling alone
   bool distance = false;        ///< the image is the distance from the camera
   bool hide_emitters = false;   ///< the camera looks through surfaces that emit, and sees no environment
+  bool media = false;           ///< paths are scattered by media (volpath)
   bool from_lights = false;  ///< ptracer: paths start at the lights, and every surface they hit is shown to the camera
   /// Whether surfaces sample directions wherever they sample lights, so that paths find lights by themselves too.
   bool finds_lights() const { return !from_lights && diffuse_bounces && bsdf_samples > 0; }
@@ -281,7 +285,9 @@ struct SceneTables {
   std::uint32_t group_count = 0;
   std::uint32_t first_analytic = kNone;  ///< primitive; kNone if there is none
   Array<float> parameters;               ///< of BSDFs, textures and lights, each at its own offset
-  Array<float> texels;                   ///< of bitmaps and tables, each at its own offset
+  Array<float> texels;                   ///< of bitmaps, grids and tables, each at its own offset
+  Array<MediumRecord> media;
+  Array<VolumeRecord> volumes;
   /// By primitive of the shapes that are lights, an index into `lights`.
   Array<std::uint32_t> primitive_lights;
   Array<LightRecord> lights;

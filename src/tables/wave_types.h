@@ -53,6 +53,13 @@ struct SceneView {
   /// Codes (see bsdf/resolved.h) that lead to every model behind a material; 1 if the ways are left to chance.
   std::uint32_t material_codes = 1;
   bool needs_uv = false;  ///< something looks at texture coordinates or tangents
+  /// Paths are scattered by media, and whatever light passes straight through stands in no light's way: the integrator wants
+  /// it so, and the scene has such things.
+  bool volumetric = false;
+  const MediumRecord* media = nullptr;
+  const VolumeRecord* volumes = nullptr;
+  std::uint32_t phase_kinds = 0;  ///< bit k: PhaseKind k occurs
+  bool any_grid_medium = false;
   bool any_area_light = false;
   CameraRecord camera;
   FilmSettings film;
@@ -101,6 +108,15 @@ struct FoundQueues {
   Queue<stored::Ray> misses;             ///< only filled if the scene has an environment
 };
 
+/// Of paths in media.
+struct MediaQueues {
+  Queue<stored::Ray> scatters[kPhaseModelCount];  ///< by PhaseKind: rays that end where they are scattered
+  Queue<stored::Ray> passed;                      ///< rays behind what they went straight through
+  Queue<stored::Track> tracks, next_tracks;
+  Queue<stored::ShadowRay> next_shadow_rays;
+  Queue<stored::ShadowTrack> shadow_tracks, next_shadow_tracks;
+};
+
 /// One worker's memory for one wave.
 struct WaveMemory {
   Queue<stored::Slot> slots;  ///< one per path, in the order of WaveJob
@@ -109,6 +125,7 @@ struct WaveMemory {
   Queue<stored::ShadowRay> shadow_rays;
   Queue<stored::Connection> connections;  ///< this and the next only for paths from the lights
   Queue<stored::Splat> splats;            ///< several bounces of a wave
+  MediaQueues media;                      ///< only for scenes that are `volumetric`
   WaveObserver observer;
 
   void tell(WaveEvent event) const {
@@ -120,6 +137,9 @@ struct WaveMemory {
 struct WaveCounts {
   std::uint64_t closest_rays = 0;
   std::uint64_t shadow_rays = 0;
+  /// Rays that crossed the boundary of a medium from a side that belongs to another one, and the first shape where any did.
+  std::uint64_t wrong_media = 0;
+  std::uint32_t wrong_medium_shape = kNone;
 };
 
 }  // namespace norrsken

@@ -45,7 +45,8 @@ inline void generate_rays_of(const SceneView& scene, const Filter& filter, const
                .direction = camera_ray.direction,
                .throughput = white(),
                .pdf_sa = 0.0f,
-               .slot = UInt(slot_base) + lane_index()},
+               .slot = UInt(slot_base) + lane_index(),
+               .medium = UInt(scene.camera.medium)},
            active);
     }
   }

@@ -17,6 +17,11 @@ NORRSKEN_INLINE Float power_heuristic(Float count, Float pdf, Float other_count,
 /// The lanes whose ray may find what light sampling finds too.
 NORRSKEN_INLINE Mask competed(const Ray& ray, Mask active) { return active & (ray.pdf_sa > 0.0f); }
 
+/// Where light was sampled that a ray may find: where its path last scattered, however many boundaries of media lie between.
+NORRSKEN_INLINE Vec3f light_reference(const SceneView& scene, const Ray& ray) {
+  return scene.volumetric ? fma(ray.direction, -ray.travelled, ray.origin) : ray.origin;
+}
+
 /// The weight of what a ray found that light sampling finds with this density: 1 where it does not compete.
 NORRSKEN_INLINE Float weight_of_found(const SceneView& scene, const Ray& ray, Float light_pdf, Mask competed) {
   const Float light_samples(static_cast<float>(scene.integrator.emitter_samples));

@@ -13,7 +13,7 @@ namespace norrsken::NORRSKEN_ISA {
 struct PlainScene : SceneView {
   // NOLINTBEGIN(readability-identifier-naming): the names of what they hide
   static constexpr std::uint32_t instance_count = 0, first_analytic = kNone, texture_kinds = 0;
-  static constexpr bool any_smooth = false, any_resolved = false, needs_uv = false;
+  static constexpr bool any_smooth = false, any_resolved = false, needs_uv = false, volumetric = false;
   // NOLINTEND(readability-identifier-naming)
 
   /// Of a scene that `is_plain`.
@@ -22,7 +22,7 @@ struct PlainScene : SceneView {
   static bool is_plain(const SceneView& scene) {
     return scene.instance_count == instance_count && scene.first_analytic == first_analytic &&
            scene.texture_kinds == texture_kinds && scene.any_smooth == any_smooth &&
-           scene.any_resolved == any_resolved && scene.needs_uv == needs_uv;
+           scene.any_resolved == any_resolved && scene.needs_uv == needs_uv && scene.volumetric == volumetric;
   }
 };
 

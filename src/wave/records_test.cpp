@@ -135,7 +135,8 @@ TEST(Records, LeaveOutWhatTheSceneHasNot) {
 }
 
 TEST(Records, QueuesOfAnArenaLieApart) {
-  WaveArena arena(100, true);
+  const WaveNeeds needs{.connections = true, .media = true};
+  WaveArena arena(100, needs);
   WaveMemory& m = arena.memory();
   EXPECT_EQ(m.rays.capacity(), 112u) << "whole registers";
   std::vector<std::pair<const float*, const float*>> ranges;
@@ -148,7 +149,7 @@ TEST(Records, QueuesOfAnArenaLieApart) {
   add(m.found.unresolved_hits), add(m.found.light_hits), add(m.found.misses);
   std::sort(ranges.begin(), ranges.end());
   for (std::size_t i = 1; i < ranges.size(); ++i) EXPECT_EQ(ranges[i - 1].second, ranges[i].first);
-  EXPECT_EQ(std::uint64_t(ranges.back().second - ranges.front().first) * sizeof(float), WaveArena::bytes(100, true));
+  EXPECT_EQ(std::uint64_t(ranges.back().second - ranges.front().first) * sizeof(float), WaveArena::bytes(100, needs));
 }
 
 #ifndef NDEBUG

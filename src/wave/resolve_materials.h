@@ -54,11 +54,11 @@ inline constexpr std::uint32_t kByChance = ~0u;
 
 /// Finds one model behind each hit: by chance, or the one that `code` leads to, if any, with the throughput weighted.
 /// `wanted_kinds` as in intersect_closest.
-inline void resolve_materials(const SceneView& scene, std::uint32_t hit_number, std::uint32_t code,
+inline void resolve_materials(const SceneView& scene, std::uint32_t first_dimension, std::uint32_t code,
                               std::uint32_t wanted_kinds, const Hits& unresolved_hits, const Slots& slots,
                               Hits (&hits)[kModelCount]) {
   const Sampler sampler{scene.sampler.kind};
-  const std::uint32_t dimension = first_dimension_of_hit(hit_number) + hit_dimension::kMaterial;
+  const std::uint32_t dimension = first_dimension + hit_dimension::kMaterial;
   for (std::uint32_t i = 0; i < unresolved_hits.count; i += kLanes) {
     Mask active = first_lanes(unresolved_hits.count - i);
     Hit hit = load<Hit>(scene, unresolved_hits, i);

@@ -19,6 +19,7 @@
 #include "wave/intersect_closest.h"
 #include "wave/intersect_distance.h"
 #include "wave/intersect_shadow.h"
+#include "wave/intersect_shadow_through.h"
 #include "wave/resolve_materials.h"
 #include "wave/shade_emission.h"
 #include "wave/shade_features.h"
@@ -56,7 +57,11 @@ inline void shade_kind(const SceneView& scene, ShadeSettings settings, const Hit
       shade_surface<Model>(scene, settings, hits, begin, end, memory.slots, memory.shadow_rays, memory.next_rays);
       counts.shadow_rays += memory.shadow_rays.count;
       memory.tell(WaveEvent::shadow_rays);
-      intersect_shadow(scene, memory.shadow_rays, memory.slots);
+      if (scene.volumetric) {
+        intersect_shadow_through(scene, settings.hit_number, memory);
+      } else {
+        intersect_shadow(scene, memory.shadow_rays, memory.slots);
+      }
       if (Model::kDelta || per_pass == 0) break;  // nothing was sampled
     }
   }
@@ -120,8 +125,8 @@ inline void shade_all_behind(const SceneView& scene, ShadeSettings settings, Wav
   if (next_rays) {
     settings.lights = false;
     clear(memory.found.hits);
-    resolve_materials(scene, settings.hit_number, kByChance, kAllScattering, memory.found.unresolved_hits, memory.slots,
-                      memory.found.hits);
+    resolve_materials(scene, first_dimension_of_hit(settings.hit_number), kByChance, kAllScattering,
+                      memory.found.unresolved_hits, memory.slots, memory.found.hits);
     memory.tell(WaveEvent::resolved);
     shade_hits(scene, settings, memory, counts);
   }
@@ -129,8 +134,8 @@ inline void shade_all_behind(const SceneView& scene, ShadeSettings settings, Wav
   settings.next_rays = false;
   for (std::uint32_t code = 0; code < scene.material_codes; ++code) {
     clear(memory.found.hits);
-    resolve_materials(scene, settings.hit_number, code, kSampledByLights, memory.found.unresolved_hits, memory.slots,
-                      memory.found.hits);
+    resolve_materials(scene, first_dimension_of_hit(settings.hit_number), code, kSampledByLights,
+                      memory.found.unresolved_hits, memory.slots, memory.found.hits);
     shade_surfaces(scene, settings, memory, counts);
   }
 }
@@ -159,8 +164,8 @@ inline void trace_wave(const SceneView& scene, const WaveJob& job, WaveMemory& m
     }
     memory.tell(WaveEvent::intersected);
     if (!last && scene.material_codes == 1 && memory.found.unresolved_hits.count > 0) {
-      resolve_materials(scene, hit_number, kByChance, kAllScattering, memory.found.unresolved_hits, memory.slots,
-                        memory.found.hits);
+      resolve_materials(scene, first_dimension_of_hit(hit_number), kByChance, kAllScattering,
+                        memory.found.unresolved_hits, memory.slots, memory.found.hits);
       memory.tell(WaveEvent::resolved);
     }
     if (!(integrator.hide_emitters && hit_number == 1)) {
@@ -194,7 +199,8 @@ inline void trace_features(const SceneView& scene, const WaveJob& job, WaveMemor
   clear(memory.found);
   counts.closest_rays += memory.rays.count;
   intersect_closest(scene, true, ~0u, memory.rays, memory.slots, memory.found);
-  resolve_materials(scene, 1, kByChance, ~0u, memory.found.unresolved_hits, memory.slots, memory.found.hits);
+  resolve_materials(scene, first_dimension_of_hit(1), kByChance, ~0u, memory.found.unresolved_hits, memory.slots,
+                    memory.found.hits);
   shade_features<Absorb>(scene, memory.found.hits[0], memory.slots);
 #define NORRSKEN_BSDF(kind, Model) \
   shade_features<Model>(scene, memory.found.hits[static_cast<std::uint32_t>(BsdfKind::kind)], memory.slots);

@@ -24,8 +24,9 @@ inline void shade_emission(const SceneView& scene, const Hits& light_hits, Slots
     Float weight(1.0f);
     const Mask both = competed(hit.ray, active);
     if (any(both)) {
-      const Float light_pdf =
-          light_pdf_sa(scene, light, copied(hit.ray.origin), copied(hit.ray.direction), hit.t, both);
+      const Float distance = scene.volumetric ? hit.t + hit.ray.travelled : hit.t;
+      const Float light_pdf = light_pdf_sa(scene, light, copied(light_reference(scene, hit.ray)),
+                                           copied(hit.ray.direction), distance, both);
       weight = weight_of_found(scene, hit.ray, light_pdf, both);
     }
     add_radiance(slots, hit.ray.slot, hit.ray.throughput * emission * weight, active);

@@ -13,7 +13,7 @@ inline void shade_miss(const SceneView& scene, const Rays& misses, Slots& slots)
     Float weight(1.0f);
     const Mask both = competed(ray, active);
     if (any(both)) {
-      const Float share = light_share(scene, UInt(scene.environment), ray.origin, both);
+      const Float share = light_share(scene, UInt(scene.environment), light_reference(scene, ray), both);
       weight = weight_of_found(scene, ray, seen.pdf_sa * share, both);
     }
     add_radiance(slots, ray.slot, ray.throughput * seen.radiance * weight, active);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "light/sample_lights.h"
+#include "wave/medium_boundary.h"
 #include "wave/mis.h"
 #include "wave/perturbed_frame.h"
 #include "wave/plain_scene.h"
@@ -75,7 +76,8 @@ NORRSKEN_INLINE void sample_lights(const Scene& scene, const ShadeSettings& sett
                    .direction = direction,
                    .t_max = distance,
                    .contribution = contribution,
-                   .slot = hit.ray.slot},
+                   .slot = hit.ray.slot,
+                   .medium = medium_beyond(scene, hit.primitive, side, hit.ray.medium, active)},
          lit);
   }
 }
@@ -101,7 +103,8 @@ NORRSKEN_INLINE void sample_next_ray(const Scene& scene, const ShadeSettings& se
     active &= sampler.sample_1d(key, dimension + hit_dimension::kRoulette) < survive;
     throughput = throughput * (1.0f / survive);
   }
-  const Vec3f origin = spawn_origin(surface.position, surface.normal, surface.offset, dot(direction, surface.normal));
+  const Float side = dot(direction, surface.normal);
+  const Vec3f origin = spawn_origin(surface.position, surface.normal, surface.offset, side);
   // Light sampling competes with a direction unless it is a delta or nothing can be sampled.
   const bool competed = scene.light_count > 0 && scene.integrator.emitter_samples > 0;
   const Float pdf = competed ? sample.pdf_sa : 0.0f;
@@ -112,7 +115,8 @@ NORRSKEN_INLINE void sample_next_ray(const Scene& scene, const ShadeSettings& se
            .throughput = throughput,
            .pdf_sa = pdf,
            .slot = hit.ray.slot,
-           .eta2 = eta2},
+           .eta2 = eta2,
+           .medium = medium_beyond(scene, hit.primitive, side, hit.ray.medium, active)},
        active);
 }
 

@@ -203,9 +203,9 @@ NORRSKEN_INLINE SurfacePoint make_surface_point(const Scene& scene, const Hit& h
       const Vec3f n = normalize(along - geometry);
       s.position = select(sphere, fma(n, fourth, geometry), s.position);
       scale = select(sphere, largest(s.position) + fourth, scale);
-      // Which way it points matters to maps and layers alone: else a surface looks the same from both sides.
+      // Which way it points matters to maps, layers and media alone: else a surface looks the same from both sides.
       Float outwards(1.0f);
-      if (scene.needs_uv) outwards = direction_of_sphere_normal(scene, hit.primitive, sphere);
+      if (scene.needs_uv || scene.volumetric) outwards = direction_of_sphere_normal(scene, hit.primitive, sphere);
       s.normal = select(sphere, n * outwards, s.normal);
     }
   }

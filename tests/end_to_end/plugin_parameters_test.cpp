@@ -55,8 +55,11 @@ class EveryPlugin : public ::testing::TestWithParam<PluginInfo> {
   static std::vector<std::string> messages(const std::string& inside, std::string_view severity) {
     const PluginInfo& p = GetParam();
     const std::string& kind = p.kind;
-    std::string node = fmt::format(R"(<{0} type="{1}"{2}>{3}</{0}>)", kind, p.name,
-                                   kind == "texture" ? R"( name="reflectance")" : "", inside);
+    const std::string name = kind == "texture"  ? R"( name="reflectance")"
+                             : kind == "volume" ? R"( name="sigma_t")"
+                             : kind == "medium" ? R"( name="interior")"
+                                                : "";
+    std::string node = fmt::format(R"(<{0} type="{1}"{2}>{3}</{0}>)", kind, p.name, name, inside);
     const std::string camera = R"(<sensor type="perspective">)";
     std::string scene = kSensor;
     if (kind == "sensor") scene = node;
@@ -66,6 +69,11 @@ class EveryPlugin : public ::testing::TestWithParam<PluginInfo> {
     if (kind == "integrator" || kind == "emitter") {
       const bool on_a_shape = p.name.ends_with("area");
       scene += on_a_shape ? R"(<shape type="rectangle">)" + node + "</shape>" : node;
+    }
+    if (kind == "volume" || kind == "phase")
+      node = R"(<medium type="heterogeneous" name="interior">)" + node + "</medium>";
+    if (kind == "medium" || kind == "phase" || kind == "volume") {
+      scene += R"(<integrator type="volpath"/><shape type="sphere"><bsdf type="null"/>)" + node + "</shape>";
     }
     if (kind == "texture") node = R"(<bsdf type="diffuse">)" + node + "</bsdf>";
     if (kind == "texture" || kind == "bsdf") {

@@ -42,6 +42,7 @@ inline constexpr Value kValues[] = {
     {"ply", "filename", "knot.ply", "missing.file"},
     {"serialized", "filename", "gear.serialized", "missing.file"},
     {"sdfgrid", "filename", "rings.vol", "missing.file"},
+    {"gridvolume", "filename", "rings.vol", "missing.file"},
     {"linearcurve", "filename", "grass.txt", "missing.file"},
     {"bsplinecurve", "filename", "tendrils.txt", "missing.file"},
     {"serialized", "shape_index", "0"},

@@ -1,0 +1,34 @@
+// homogeneous: a medium that is the same everywhere. It fills what the shapes that name it enclose.
+//
+// The light that passes it is known in closed form, so shadow rays have no noise of it.
+#include <fmt/core.h>
+
+#include "medium/medium_host.h"
+
+namespace norrsken {
+namespace {
+
+constexpr ColorParameter kSigmaT{.name = "sigma_t",
+                                 .fallback = 1,
+                                 .range = kFromZero,
+                                 .text = "extinction: what is scattered and absorbed of light on a unit of length"};
+
+}  // namespace
+
+MediumRecord compile_medium_homogeneous(Parameters& p, Media& media) {
+  MediumRecord record{};
+  glm::dvec3 sigma_t = p.read(kSigmaT).rgb() * p.read(kScale);
+  for (int c = 0; c < 3; ++c) {
+    if (sigma_t[c] > kMostExtinction) {
+      p.error(kSigmaT.name, fmt::format("an extinction of {:g} per unit of length", sigma_t[c]),
+              fmt::format("up to {:g}, with 'scale'", kMostExtinction));
+      sigma_t = glm::dvec3(0);
+    }
+    record.sigma_t[c] = static_cast<float>(sigma_t[c]);
+  }
+  read_scattering(p, media, record);
+  media.describe(p.node(), fmt::format("sigma_t {:.4g} {:.4g} {:.4g}", sigma_t.r, sigma_t.g, sigma_t.b));
+  return record;
+}
+
+}  // namespace norrsken

@@ -1,0 +1,6 @@
+// Every phase function.
+#pragma once
+
+#include "medium/hg.h"
+#include "medium/isotropic.h"
+#include "medium/rayleigh.h"
