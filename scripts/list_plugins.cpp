@@ -32,18 +32,20 @@ std::string number(const std::optional<double>& value) {
 }
 
 const char* name_of(norrsken::PluginParameter::Type type) {
-  const char* const names[] = {"boolean", "integer",  "number", "string",    "path",   "numbers",
-                               "color",   "spectrum", "point",  "transform", "texture"};
+  const char* const names[] = {"boolean", "integer",  "number", "string",    "path",    "numbers",
+                               "color",   "spectrum", "point",  "transform", "texture", "volume"};
   return names[static_cast<int>(type)];
 }
 
 void print(const norrsken::PluginParameter& p) {
-  std::printf("    {\"name\": %s, \"type\": \"%s\", \"texture\": %s, \"volume\": %s, \"required\": %s, \"default\": %s, \"choices\": %s,\n",
-              quoted(p.name).c_str(), name_of(p.type), p.may_be_texture ? "true" : "false", p.may_be_volume ? "true" : "false",
-              p.is_required ? "true" : "false", quoted(p.fallback).c_str(), list(p.choices).c_str());
-  std::printf("     \"min\": %s, \"max\": %s, \"min_belongs\": %s, \"max_belongs\": %s, \"clamped\": %s,\n", number(p.min).c_str(),
-              number(p.max).c_str(), p.min_belongs ? "true" : "false", p.max_belongs ? "true" : "false",
-              p.is_clamped ? "true" : "false");
+  std::printf(
+      "    {\"name\": %s, \"type\": \"%s\", \"texture\": %s, \"volume\": %s, \"required\": %s, \"default\": %s, "
+      "\"choices\": %s,\n",
+      quoted(p.name).c_str(), name_of(p.type), p.may_be_texture ? "true" : "false", p.may_be_volume ? "true" : "false",
+      p.is_required ? "true" : "false", quoted(p.fallback).c_str(), list(p.choices).c_str());
+  std::printf("     \"min\": %s, \"max\": %s, \"min_belongs\": %s, \"max_belongs\": %s, \"clamped\": %s,\n",
+              number(p.min).c_str(), number(p.max).c_str(), p.min_belongs ? "true" : "false",
+              p.max_belongs ? "true" : "false", p.is_clamped ? "true" : "false");
   std::printf("     \"unit\": %s, \"in_place_of\": %s, \"text\": %s}", quoted(p.unit).c_str(),
               quoted(p.in_place_of).c_str(), quoted(p.text).c_str());
 }

@@ -9,7 +9,7 @@ namespace norrsken {
 
 struct PluginParameter {
   /// What it is read as; `text`, `file` and `numbers` are strings in scene files. A number may be an integer there, too.
-  enum class Type { boolean, integer, number, text, file, numbers, color, spectrum, point, transform, texture };
+  enum class Type { boolean, integer, number, text, file, numbers, color, spectrum, point, transform, texture, volume };
 
   std::string name;
   Type type = Type::texture;

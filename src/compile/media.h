@@ -24,19 +24,23 @@ class Media : public PluginTools {
   /// Stores a phase function's block and returns the word that leads to it.
   template <class Stored>
   PhaseWord add(const Stored& stored) {
-    return make_phase(Stored::kKind, store(floats_of(stored)));
+    return add(Stored::kKind, floats_of(stored));
   }
+  PhaseWord add(const PhaseBlend& blend) { return add(PhaseKind::blendphase, floats_of(blend)); }
   /// Of a node inside; one that several refer to is compiled once.
   PhaseWord phase(const Node& node);
   Volume volume(const Node& node);
 
  private:
-  std::uint32_t store(std::span<const float> block);
+  PhaseWord add(PhaseKind kind, std::span<const float> block);
 };
 
 using CompileMedium = MediumRecord(Parameters&, Media&);
 using CompilePhase = PhaseWord(Parameters&, Media&);
 using CompileVolume = Volume(Parameters&, Media&);
+
+/// Of media that name none: as Mitsuba has it, the `isotropic` one.
+PhaseWord default_phase(Media& media);
 
 #define NORRSKEN_MEDIUM(name) CompileMedium compile_medium_##name;
 #include "lists/medium.def"
@@ -44,6 +48,9 @@ using CompileVolume = Volume(Parameters&, Media&);
 #define NORRSKEN_PHASE(kind, Model) CompilePhase compile_phase_##kind;
 #include "lists/phase.def"
 #undef NORRSKEN_PHASE
+#define NORRSKEN_PHASE_ADAPTER(kind) CompilePhase compile_phase_##kind;
+#include "lists/phase_adapter.def"
+#undef NORRSKEN_PHASE_ADAPTER
 #define NORRSKEN_VOLUME(name) CompileVolume compile_volume_##name;
 #include "lists/volume.def"
 #undef NORRSKEN_VOLUME

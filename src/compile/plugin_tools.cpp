@@ -35,7 +35,10 @@ void Textures::look_up_attribute(const std::string& name, TextureWord texture, s
 
 const FileSystem& Media::files() const { return builder_.files(); }
 SceneTables& Media::tables() { return builder_.tables(); }
-std::uint32_t Media::store(std::span<const float> block) { return builder_.add_parameters(block); }
+PhaseWord Media::add(PhaseKind kind, std::span<const float> block) {
+  builder_.tables().phase_kinds |= 1u << static_cast<std::uint32_t>(kind);
+  return make_phase(kind, builder_.add_parameters(block));
+}
 PhaseWord Media::phase(const Node& node) { return builder_.phase(node); }
 Volume Media::volume(const Node& node) { return builder_.volume(node); }
 

@@ -78,6 +78,9 @@ std::span<const Plugin<CompilePhase>> phase_plugins() {
 #define NORRSKEN_PHASE(kind, Model) {#kind, compile_phase_##kind},
 #include "lists/phase.def"
 #undef NORRSKEN_PHASE
+#define NORRSKEN_PHASE_ADAPTER(kind) {#kind, compile_phase_##kind},
+#include "lists/phase_adapter.def"
+#undef NORRSKEN_PHASE_ADAPTER
   };
   return kTable;
 }

@@ -21,27 +21,17 @@ constexpr ColorParameter kSigmaT{.name = "sigma_t",
 }  // namespace
 
 MediumRecord compile_medium_heterogeneous(Parameters& p, Media& media) {
-  MediumRecord record{};
+  MediumRecord record{.sigma_t = {}, .albedo = {}};
   Volume volume;
   if (const Node::Child* child = p.volume(kSigmaT.name)) {
     volume = media.volume(*child->node);
-    warn_beyond(p, kSigmaT.name.data(), volume, kSigmaT.range);
+    warn_beyond(p, kSigmaT.name, volume, kSigmaT.range);
   } else {
     volume = add_constant(media, p.read(kSigmaT).rgb(), glm::dmat4(1));
   }
-  double scale = p.read(kScale);
-  if (scale * volume.max > kMostExtinction) {
-    p.error(kSigmaT.name, fmt::format("an extinction of {:g} per unit of length", scale * volume.max),
-            fmt::format("up to {:g}, with 'scale'", kMostExtinction));
-    scale = 0;
-  }
-  for (float& s : record.sigma_t) s = static_cast<float>(scale);
+  const double scale = p.read(kScale);
   read_scattering(p, media, record);
-  if (volume.index == kNone) return record;
-  record.sigma_volume = volume.index;
-  const MajorantSummary majorants = add_majorants(media.tables(), volume, scale, record);
-  media.describe(p.node(), fmt::format("sigma_t up to {:.4g}, {:.4g} as the mean of {} majorants", scale * volume.max,
-                                       majorants.mean, majorants.count));
+  if (volume.index != kNone) set_extinction(p, media, volume, scale, record);
   return record;
 }
 

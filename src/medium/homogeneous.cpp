@@ -1,8 +1,12 @@
 // homogeneous: a medium that is the same everywhere. It fills what the shapes that name it enclose.
 //
-// The light that passes it is known in closed form, so shadow rays have no noise of it.
+// The light that passes it is known in closed form, so shadow rays have no noise of it; but with an `sggx`, which differs by
+// place and direction.
 #include <fmt/core.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "medium/majorants_host.h"
 #include "medium/medium_host.h"
 
 namespace norrsken {
@@ -16,7 +20,7 @@ constexpr ColorParameter kSigmaT{.name = "sigma_t",
 }  // namespace
 
 MediumRecord compile_medium_homogeneous(Parameters& p, Media& media) {
-  MediumRecord record{};
+  MediumRecord record{.sigma_t = {}, .albedo = {}};
   glm::dvec3 sigma_t = p.read(kSigmaT).rgb() * p.read(kScale);
   for (int c = 0; c < 3; ++c) {
     if (sigma_t[c] > kMostExtinction) {
@@ -27,6 +31,13 @@ MediumRecord compile_medium_homogeneous(Parameters& p, Media& media) {
     record.sigma_t[c] = static_cast<float>(sigma_t[c]);
   }
   read_scattering(p, media, record);
+  if (record.flakes_volume != kNone) {
+    // What flakes extinguish differs by direction and place: a volume of one value, as far as scenes go.
+    constexpr double kFar = 1e7;
+    const glm::dmat4 everywhere = glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(-kFar)), glm::dvec3(2 * kFar));
+    set_extinction(p, media, add_constant(media, sigma_t, everywhere), 1, record);
+    return record;
+  }
   media.describe(p.node(), fmt::format("sigma_t {:.4g} {:.4g} {:.4g}", sigma_t.r, sigma_t.g, sigma_t.b));
   return record;
 }

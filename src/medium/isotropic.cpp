@@ -5,6 +5,8 @@
 
 namespace norrsken {
 
-PhaseWord compile_phase_isotropic(Parameters&, Media& media) { return media.add(isa_host::Isotropic::Stored{}); }
+PhaseWord default_phase(Media& media) { return media.add(isa_host::Isotropic::Stored{}); }
+
+PhaseWord compile_phase_isotropic(Parameters&, Media& media) { return default_phase(media); }
 
 }  // namespace norrsken

@@ -23,7 +23,13 @@ inline constexpr BooleanParameter kSampleEmitters{
 /// Reads everything but the extinction: albedo, sample_emitters, phase function.
 void read_scattering(Parameters& p, Media& media, MediumRecord& record);
 
+/// The largest factor that the flakes of an `sggx`, which the record has, are on the extinction.
+double largest_area(const SceneTables& tables, const MediumRecord& record);
+
+/// Makes a medium heterogeneous with the extinction `scale` times `volume`. `what`: of which parameter.
+void set_extinction(Parameters& p, Media& media, const Volume& volume, double scale, MediumRecord& record);
+
 /// A warning if a volume's values are out of range: they are clamped as they are looked up.
-void warn_beyond(Parameters& p, const char* name, const Volume& volume, const Range& range);
+void warn_beyond(Parameters& p, std::string_view name, const Volume& volume, const Range& range);
 
 }  // namespace norrsken

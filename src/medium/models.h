@@ -4,3 +4,5 @@
 #include "medium/hg.h"
 #include "medium/isotropic.h"
 #include "medium/rayleigh.h"
+#include "medium/sggx.h"
+#include "medium/tabphase.h"

@@ -200,10 +200,8 @@ SceneView make_scene_view(const SceneTables& tables, const AccelView& accel) {
   for (const LightRecord& light : tables.lights) view.light_kinds |= 1u << static_cast<std::uint32_t>(light.kind);
   view.media = data_or_one(tables.media);
   view.volumes = data_or_one(tables.volumes);
-  for (const MediumRecord& medium : tables.media) {
-    view.any_grid_medium |= medium.sigma_volume != kNone;
-    view.phase_kinds |= 1u << (medium.phase >> 24);
-  }
+  view.phase_kinds = tables.phase_kinds;
+  for (const MediumRecord& medium : tables.media) view.any_grid_medium |= medium.sigma_volume != kNone;
   view.any_area_light = !tables.primitive_lights.empty();
   view.any_smooth =
       std::any_of(tables.shapes.begin(), tables.shapes.end(), [](const ShapeRecord& s) { return s.smooth != 0; });

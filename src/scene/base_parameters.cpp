@@ -41,6 +41,7 @@ constexpr BaseParameter kTable[] = {
     {"shape", "shapegroup", "to_world", Type::transform, "to_world of the instances and of the shapes inside"},
     {"spectrum", "blackbody", "wavelength_max", Type::number, ""},
     {"spectrum", "blackbody", "wavelength_min", Type::number, ""},
+    {"volume", "gridvolume", "max_value", Type::number, ""},
 };
 
 }  // namespace

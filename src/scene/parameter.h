@@ -137,6 +137,11 @@ struct TextureParameter {
   std::string_view name, text = {};
 };
 
+/// A `volume`, required.
+struct VolumeParameter {
+  std::string_view name, text = {};
+};
+
 /// Wavelengths and values.
 struct SpectrumParameter {
   std::string_view name, text = {};

@@ -58,6 +58,8 @@ class Parameters {
   std::string read(const FileParameter& file);
   /// Null if it is not given, or after a complaint.
   const Node::Child* read(const TextureParameter& texture);
+  /// The same of a volume.
+  const Node::Child* read(const VolumeParameter& volume);
   /// Wavelengths in nm and values, spelled out; empty after a complaint.
   SceneColor::Spectrum read(const SpectrumParameter& spectrum);
   /// Empty after a complaint.

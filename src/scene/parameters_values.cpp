@@ -256,6 +256,21 @@ const Node::Child* Parameters::read(const TextureParameter& parameter) {
   return nullptr;
 }
 
+const Node::Child* Parameters::read(const VolumeParameter& parameter) {
+  ask(parameter, PluginParameter::Type::volume, {});
+  if (record_) recorded(parameter.name).is_required = true;
+  const Node::Child* child = find_child(parameter.name);
+  constexpr std::string_view kAccepted = "a volume, such as gridvolume";
+  if (child && child->node->kind == "volume") return child;
+  if (!has(parameter.name)) {
+    error(parameter.name, fmt::format("{} needs a parameter '{}'", name_of(node_), parameter.name),
+          std::string(kAccepted));
+  } else {
+    find_as<>(parameter.name, kAccepted);
+  }
+  return nullptr;
+}
+
 SceneColor::Spectrum Parameters::read(const SpectrumParameter& spectrum) {
   ask(spectrum, PluginParameter::Type::spectrum, {});
   constexpr std::string_view kAccepted = "a spectrum of wavelength:value pairs";

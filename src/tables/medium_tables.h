@@ -14,7 +14,9 @@ enum class PhaseKind : std::uint32_t {
 #define NORRSKEN_PHASE(kind, Model) kind,
 #include "lists/phase.def"
 #undef NORRSKEN_PHASE
-  blendphase,
+#define NORRSKEN_PHASE_ADAPTER(kind) kind,
+#include "lists/phase_adapter.def"
+#undef NORRSKEN_PHASE_ADAPTER
   count
 };
 inline constexpr std::uint32_t kPhaseModelCount = static_cast<std::uint32_t>(PhaseKind::blendphase);
@@ -42,6 +44,13 @@ struct VolumeRecord {
   float value[3];  ///< the constant
 };
 
+/// What a `blendphase` keeps in `parameters`.
+struct PhaseBlend {
+  float weight;          ///< share of the second
+  std::uint32_t volume;  ///< that the weight differs with, or kNone
+  PhaseWord first, second;
+};
+
 struct MediumRecord {
   float sigma_t[3];  ///< extinction per unit of length; of a heterogeneous medium the factor on that of its volume
   float albedo[3];   ///< share of it that is scattered, if there is no volume of it
@@ -50,6 +59,7 @@ struct MediumRecord {
   std::uint32_t scatters = 0;          ///< 1: the albedo is not 0 everywhere
   std::uint32_t sample_emitters = 1;   ///< 0: lights are found by chance alone
   PhaseWord phase = 0;
+  std::uint32_t flakes_volume = kNone;  ///< of an `sggx`, whose projected area is a factor on the extinction
   /// Of a heterogeneous medium: the box in the world that holds all of it, in cells that tell the largest extinction in them.
   float lower[3] = {}, upper[3] = {};
   float cells_x = 0, cells_y = 0, cells_z = 0;

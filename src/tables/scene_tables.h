@@ -288,6 +288,7 @@ struct SceneTables {
   Array<float> texels;                   ///< of bitmaps, grids and tables, each at its own offset
   Array<MediumRecord> media;
   Array<VolumeRecord> volumes;
+  std::uint32_t phase_kinds = 0;  ///< bit k: PhaseKind k occurs
   /// By primitive of the shapes that are lights, an index into `lights`.
   Array<std::uint32_t> primitive_lights;
   Array<LightRecord> lights;

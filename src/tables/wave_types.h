@@ -110,8 +110,8 @@ struct FoundQueues {
 
 /// Of paths in media.
 struct MediaQueues {
-  Queue<stored::Ray> scatters[kPhaseModelCount];  ///< by PhaseKind: rays that end where they are scattered
-  Queue<stored::Ray> passed;                      ///< rays behind what they went straight through
+  Queue<stored::Scatter> scatters[kPhaseModelCount];  ///< by PhaseKind
+  Queue<stored::Ray> passed;                          ///< rays behind what they went straight through
   Queue<stored::Track> tracks, next_tracks;
   Queue<stored::ShadowRay> next_shadow_rays;
   Queue<stored::ShadowTrack> shadow_tracks, next_shadow_tracks;

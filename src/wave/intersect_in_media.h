@@ -56,6 +56,7 @@ inline void intersect_in_media(const SceneView& scene, const RoundSettings& sett
   const Sampler sampler{scene.sampler.kind};
   const std::uint32_t dimension =
       first_dimension_of_round(settings.hit_number, settings.round) + hit_dimension::kDistance;
+  const std::uint32_t phase_dimension = first_dimension_of_hit(settings.hit_number) + hit_dimension::kBsdfLobe;
   const bool from_camera = settings.hit_number == 1;
   const Rays& rays = memory.rays;
   ClosestOfQueue hits(scene, from_camera && settings.round == 0, rays);
@@ -91,7 +92,8 @@ inline void intersect_in_media(const SceneView& scene, const RoundSettings& sett
         if (any(flight.scattered)) {
           Ray stopped = hit.ray;
           stopped.origin = fma(hit.ray.direction, flight.t, hit.ray.origin);
-          push_scatters(scene, stopped, memory.media.scatters, flight.scattered);
+          push_scatters(scene, stopped, sampler.sample_1d(key, phase_dimension), memory.media.scatters,
+                        flight.scattered);
           active &= !flight.scattered;
         }
       }
@@ -129,7 +131,7 @@ inline void track_media(const SceneView& scene, const RoundSettings& settings, W
       active &= !s.ended;
       if (none(s.collided)) continue;
       const Vec3f position = fma(ray.direction, walk.t, ray.origin);
-      const Color sigma = extinction_at(scene, ray.medium, position, s.majorant, s.collided);
+      const Color sigma = extinction_at(scene, ray.medium, position, ray.direction, s.majorant, s.collided);
       const Color rest = grey(s.majorant) - sigma;
       const Mask may = s.collided & may_scatter & (max_component(sigma) > 0.0f);
       // Whether light is scattered here, each channel with its share. What is absorbed leaves the throughput.
@@ -149,7 +151,8 @@ inline void track_media(const SceneView& scene, const RoundSettings& settings, W
     if (any(scattered)) {
       Ray stopped = ray;
       stopped.origin = fma(ray.direction, walk.t, ray.origin);
-      push_scatters(scene, stopped, media.scatters, scattered);
+      const Float number = draw(key, walk, scattered);
+      push_scatters(scene, stopped, number, media.scatters, scattered);
     }
     if (any(ended)) push_ends(scene, settings, hit, memory.found, ended);
     if (any(active)) {

@@ -133,7 +133,7 @@ inline void track_shadows(const SceneView& scene, std::uint32_t dimension, WaveM
       active &= !s.ended;
       if (none(s.collided)) continue;
       const Vec3f position = fma(ray.direction, walk.t, from);
-      const Color sigma = extinction_at(scene, track.medium, position, s.majorant, s.collided);
+      const Color sigma = extinction_at(scene, track.medium, position, ray.direction, s.majorant, s.collided);
       const Color passes = (grey(s.majorant) - sigma) * (1.0f / s.majorant);
       ray.contribution = select(s.collided, ray.contribution * passes, ray.contribution);
       track.kept = select(s.collided, track.kept * max_component(passes), track.kept);

@@ -5,6 +5,7 @@
 // Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987.
 #pragma once
 
+#include "medium/flakes.h"
 #include "sampler/hash.h"
 #include "wave/media.h"
 
@@ -135,11 +136,17 @@ NORRSKEN_INLINE Step take_step(const SceneView& scene, const MajorantGrid& grid,
 }
 
 /// The extinction of a heterogeneous medium there, at most its majorant.
-NORRSKEN_INLINE Color extinction_at(const SceneView& scene, UInt medium, const Vec3f& position, Float majorant,
-                                    Mask active) {
+NORRSKEN_INLINE Color extinction_at(const SceneView& scene, UInt medium, const Vec3f& position, const Vec3f& direction,
+                                    Float majorant, Mask active) {
   const UInt volume = gather_medium(scene, &MediumRecord::sigma_volume, medium, active);
   const Color scale = gather_medium_color(scene, &MediumRecord::sigma_t, medium, active);
-  const Color sigma = evaluate_volume(scene, volume, copied(position), active) * scale;
+  Color sigma = evaluate_volume(scene, volume, copied(position), active) * scale;
+  const UInt flakes = gather_medium(scene, &MediumRecord::flakes_volume, medium, active);
+  const Mask oriented = active & (flakes != kNone);
+  if (any(oriented)) {
+    const Float area = projected_area(flakes_at(scene, flakes, copied(position), oriented), direction);
+    sigma = select(oriented, sigma * area, sigma);
+  }
   const auto bounded = [&](Float s) { return min(max(s, 0.0f), majorant); };
   return {bounded(sigma.r), bounded(sigma.g), bounded(sigma.b)};
 }

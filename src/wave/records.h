@@ -29,6 +29,7 @@ using Slots = Queue<stored::Slot>;
 using Rays = Queue<stored::Ray>;
 using Hits = Queue<stored::Hit>;
 using ShadowRays = Queue<stored::ShadowRay>;
+using Scatters = Queue<stored::Scatter>;
 using Connections = Queue<stored::Connection>;
 using Splats = Queue<stored::Splat>;
 

@@ -7,7 +7,7 @@
 namespace norrsken::NORRSKEN_ISA {
 
 template <class Phase>
-inline void shade_scatters(const SceneView& scene, const ShadeSettings& settings, const Rays& scatters,
+inline void shade_scatters(const SceneView& scene, const ShadeSettings& settings, const Scatters& scatters,
                            std::uint32_t begin, std::uint32_t end, const Slots& slots, ShadowRays& shadow_rays,
                            Rays& next_rays) {
   const Sampler sampler{scene.sampler.kind};
@@ -17,9 +17,9 @@ inline void shade_scatters(const SceneView& scene, const ShadeSettings& settings
   const bool samples_lights = scene.light_count > 0 && n > 0;
   for (std::uint32_t i = begin; i < end; i += kLanes) {
     Mask active = first_lanes(end - i);
-    const Ray ray = load<Ray>(scene, scatters, i);
-    const UInt word = gather_medium(scene, &MediumRecord::phase, ray.medium, active);
-    const auto phase = Phase::load(PhaseReader{scene, word & kPhaseOffsetMask, ray.origin, active});
+    const Scatter scatter = load<Scatter>(scene, scatters, i);
+    const Ray& ray = scatter.ray;
+    const auto phase = Phase::load(PhaseReader{scene, scatter.phase & kPhaseOffsetMask, ray.origin, active});
     const Vec3f wo = -ray.direction;
     const SampleKey key = load_sample_key(slots, ray.slot, active);
     Mask lit = Mask::none();

@@ -17,8 +17,8 @@
 
 namespace norrsken::NORRSKEN_ISA {
 
-NORRSKEN_INLINE void clear(Scatters& scatters) {
-  for (Rays& of_kind : scatters) of_kind.count = 0;
+NORRSKEN_INLINE void clear(Scatters (&scatters)[kPhaseModelCount]) {
+  for (Scatters& of_kind : scatters) of_kind.count = 0;
 }
 
 /// Lets the rays of memory.rays pass until each has met a surface or is scattered; their emission is in the slots then,
@@ -63,7 +63,7 @@ inline void find_vertices(const SceneView& scene, const ShadeSettings& settings,
 
 /// Shades what is scattered by one phase function and traces its shadow rays, in portions that fit the shadow queue.
 template <class Phase>
-inline void shade_phase(const SceneView& scene, ShadeSettings settings, const Rays& scatters, WaveMemory& memory,
+inline void shade_phase(const SceneView& scene, ShadeSettings settings, const Scatters& scatters, WaveMemory& memory,
                         WaveCounts& counts) {
   const auto light_samples = static_cast<std::uint32_t>(scene.integrator.emitter_samples);
   const bool next_rays = settings.next_rays;

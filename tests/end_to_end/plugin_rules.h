@@ -42,6 +42,8 @@ inline std::string tag_of(Type type) {
       return "transform";
     case Type::texture:
       return "texture";
+    case Type::volume:
+      return "volume";
     default:
       return "string";
   }
@@ -49,6 +51,7 @@ inline std::string tag_of(Type type) {
 
 inline std::string element(const std::string& tag, const std::string& name, const std::string& value) {
   if (tag == "transform") return fmt::format(R"(<transform name="{}">{}</transform>)", name, value);
+  if (tag == "volume") return fmt::format(R"(<volume name="{}" type="constvolume"/>)", name);
   if (tag == "texture") return fmt::format(R"(<texture name="{}" type="checkerboard"/>)", name);
   return fmt::format(R"(<{} name="{}" value="{}"/>)", tag, name, value);
 }

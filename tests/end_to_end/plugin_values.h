@@ -30,6 +30,7 @@ inline constexpr Needed kNeeded[] = {{"bsdf", "mask", NORRSKEN_DIFFUSE},
                                      {"bsdf", "twosided", NORRSKEN_DIFFUSE},
                                      {"shape", "shapegroup", R"(<shape type="sphere"/>)"},
                                      {"shape", "instance", R"(<ref id="group"/>)"},
+                                     {"phase", "blendphase", R"(<phase type="hg"/><phase type="isotropic"/>)"},
                                      {"integrator", "moment", R"(<integrator type="path"/>)"}};
 
 #undef NORRSKEN_DIFFUSE
@@ -52,6 +53,7 @@ inline constexpr Value kValues[] = {
     {"", "focal_length", "35mm", "wide", "a length from 0.001mm to 1000000mm, such as 50mm"},
     {"aov", "aovs", "d:depth", "d", "pairs such as position:position, normal:sh_normal"},
     {"mesh_attribute", "name", "vertex_color"},
+    {"tabphase", "values", "1, 2", "1", "2 to 1048576"},
     {"mesh", "positions", "0 0 0, 1 0 0, 0 1 0", "x", "a string of numbers"},
     {"mesh", "triangles", "0 1 2", "x", "a string of numbers"},
     {"mesh", "normals", "0 0 1 0 0 1 0 0 1", "x", "a string of numbers"},
