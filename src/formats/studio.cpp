@@ -122,7 +122,7 @@ Node studio_sky(const SourceLocation& place) {
       const double turn = 2 * std::numbers::pi * (0.5 - (column + 0.5) / kWidth);
       const glm::dvec3 w(std::sin(polar) * std::sin(turn), std::cos(polar), std::sin(polar) * std::cos(turn));
       const double sky = 0.15 + 0.75 * smooth(-0.3, 1, w.y);
-      const double value = sky + 9 * smooth(0.88, 0.97, glm::dot(w, lamp));
+      const double value = sky + 4.5 * smooth(0.88, 0.97, glm::dot(w, lamp));
       for (Channel& channel : image.channels) channel.values.push_back(static_cast<float>(value));
     }
   }

@@ -82,6 +82,12 @@ TEST(GltfPrimitives, WithoutNormalsAreFlatAndKeepTheirFrontWhenMirrored) {
               HasSubstr("flip_normals = true"));
 }
 
+TEST(GltfPrimitives, WithoutAreaAreLeftOut) {
+  EXPECT_EQ(
+      nodes_of(primitive("{'attributes':{'POSITION':0}}", kPositions, std::string(48, '\0'), {48}), "shape").size(),
+      0u);
+}
+
 TEST(GltfAccessors, OfIntegersAreFractionsIfTheyAreNormalized) {
   const std::string bytes = Bytes().add<std::int16_t>({32767, -32768, 0, 0, 16384, 0, 0, 0, 0}).text();
   const auto mesh = first_mesh(

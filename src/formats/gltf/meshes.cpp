@@ -34,6 +34,19 @@ FloatArray plain(Asset& asset, const Numbers& numbers) {
   return {numbers.values.begin(), numbers.values.end()};
 }
 
+/// Where nothing has, a shape would have no attributes either.
+bool has_area(const Mesh& mesh) {
+  const auto point = [&](std::size_t corner) {
+    const float* p = &mesh.positions[3 * std::size_t{mesh.triangles[corner]}];
+    return glm::dvec3(p[0], p[1], p[2]);
+  };
+  for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    const glm::dvec3 normal = glm::cross(point(i + 1) - point(i), point(i + 2) - point(i));
+    if (glm::dot(normal, normal) > 0) return true;
+  }
+  return false;
+}
+
 /// One primitive on its way to a mesh.
 class Primitive {
  public:
@@ -199,7 +212,7 @@ class Primitive {
   }
 
   void add(const Json* material, const PrimitiveTraits& traits, Mesh mesh, std::vector<Part>& parts) {
-    if (mesh.triangles.empty()) return;
+    if (!has_area(mesh)) return;
     Part part;
     part.is_flat = mesh.normals.empty();
     part.surface = materials_.surface(material, traits);
