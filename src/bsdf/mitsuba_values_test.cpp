@@ -85,7 +85,8 @@ TEST(MitsubasValues, AreOurs) {
     EXPECT_NEAR(double(value.r.v), v.value[0], tolerance * v.value[0]);
     EXPECT_NEAR(double(value.g.v), v.value[1], tolerance * v.value[1]);
     EXPECT_NEAR(double(value.b.v), v.value[2], tolerance * v.value[2]);
-    EXPECT_NEAR(double(sides.front->pdf_sa(wo, wi)), v.pdf_sa, 4e-3 * v.pdf_sa);
+    // Of principled the lobes are sampled by what they send, in Mitsuba in fixed shares.
+    if (plugin != "principled") EXPECT_NEAR(double(sides.front->pdf_sa(wo, wi)), v.pdf_sa, 4e-3 * v.pdf_sa);
   }
 }
 

@@ -2,9 +2,9 @@
 // Measure     pdf_sa: cosine-weighted, from the clear coat's normals, and from visible normals with each facet's share of
 //             reflected light; each lobe as often as its part of what the viewer gets, by the reflectance head on to it
 // Source      Burley 2012 and 2015, see principled_lobes.h; microfacets: Walter et al. 2007, equations 20 and 21
-// Departures  none from Mitsuba 3: neither subsurface scattering nor absorption inside; sheen and clear coat may give back
-//             more than arrives; what has nothing diffuse (metallic or spec_trans 1) has no sheen; an interface that
-//             reflects nothing (specular 0) has no metal either
+// Departures  from Mitsuba 3 how often lobes are sampled; as there, neither subsurface scattering nor absorption inside;
+//             sheen and clear coat may give back more than arrives; what has nothing diffuse (metallic or spec_trans 1) has
+//             no sheen; an interface that reflects nothing (specular 0) has no metal either
 #pragma once
 
 #include "bsdf/bsdf.h"

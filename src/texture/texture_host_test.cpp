@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "compile/compile_testing.h"
+#include "texture/bitmap.h"
 
 namespace norrsken::testing {
 namespace {
@@ -61,10 +62,8 @@ TEST(BitmapHost, StoresBytesAndATableThatDecodesThem) {
   ASSERT_THAT(c.messages(), IsEmpty());
   const auto p = stored(c, TextureKind::bitmap);
   EXPECT_THAT(std::vector(p.begin(), p.begin() + 8), ElementsAre(1, 0, 0, 0, 1, 0, 2, 2));
-  const std::uint32_t texels = word_at(p, 8), table = word_at(p, 10);
-  EXPECT_EQ(word_at(p, 9), 0u) << "packed";
-  EXPECT_EQ(word_at(p, 11), 0u) << "repeat";
-  EXPECT_EQ(word_at(p, 12), 0u) << "bilinear";
+  const std::uint32_t texels = word_at(p, 8), table = word_at(p, 9);
+  EXPECT_EQ(word_at(p, 10), 0u) << "packed, repeated, bilinear, as uv are";
   const auto& t = c.tables().texels;
   ASSERT_EQ(t.size(), 256u + 4);
   EXPECT_EQ(word_at(t, texels), 3u | 2u << 8 | 1u << 16);
@@ -85,14 +84,15 @@ TEST(BitmapHost, TakesEveryParameter) {
   ASSERT_THAT(c.messages(), IsEmpty());
   const auto p = stored(c, TextureKind::bitmap);
   EXPECT_THAT(std::vector(p.begin(), p.begin() + 6), ElementsAre(2, 0, 0.25f, 0, 3, 0.5f));
-  EXPECT_EQ(word_at(p, 11), 2u + 4 * 2u);
-  EXPECT_EQ(word_at(p, 12), 1u);
-  EXPECT_FLOAT_EQ(c.tables().texels[word_at(p, 10) + 128], 128 / 255.0f);
+  using isa_host::Bitmap;
+  constexpr auto wraps = [](std::uint32_t u, std::uint32_t v) { return (u + 4 * v) << Bitmap::kWrapShift; };
+  EXPECT_EQ(word_at(p, 10), wraps(2, 2) | Bitmap::kNearest | Bitmap::kMapped);
+  EXPECT_FLOAT_EQ(c.tables().texels[word_at(p, 9) + 128], 128 / 255.0f);
   const Compiled mirrored = compile_texture(bitmap(kFile + R"(<string name="wrap_mode" value="mirror"/>)"));
-  EXPECT_EQ(word_at(stored(mirrored, TextureKind::bitmap), 11), 1u + 4 * 1u);
+  EXPECT_EQ(word_at(stored(mirrored, TextureKind::bitmap), 10), wraps(1, 1));
   const Compiled along_v = compile_texture(bitmap(kFile + R"(<string name="wrap_mode_v" value="clamp"/>)"));
   EXPECT_THAT(along_v.messages(), IsEmpty());
-  EXPECT_EQ(word_at(stored(along_v, TextureKind::bitmap), 11), 0u + 4 * 2u);
+  EXPECT_EQ(word_at(stored(along_v, TextureKind::bitmap), 10), wraps(0, 2));
 }
 
 TEST(BitmapHost, ReadsAFileOnceHoweverOftenItIsNamed) {
