@@ -129,7 +129,8 @@ TEST(VolumeHost, MajorantsAreThoseOfTheirCells) {
     ASSERT_EQ(m.cells_x, 8.0f);
     for (std::uint32_t cell = 0; cell < 8; ++cell) {
       // The value in voxel 40 is met from 39.5 to 41.5, in the middle of voxels.
-      const bool meets = cell == 4 || cell == 5;
+      // At its faces a grid that goes on may meet any of them.
+      const bool meets = cell == 4 || cell == 5 || (wrap != "clamp" && (cell == 0 || cell == 7));
       EXPECT_THAT(c.tables().texels[m.majorants + cell], FloatEq((meets ? 9 : 1) * (1 + 1e-6f))) << cell << wrap;
     }
   }
@@ -156,7 +157,7 @@ TEST(VolumeHost, WhatIsWrongWithAGrid) {
               ElementsAre("warning: the values of sigma_t go from -1 to 2: those below 0 for 0 are taken"));
   EXPECT_THAT(messages(vol(1, 1, 2, 1, {0.5, 2}), "albedo"),
               ElementsAre("warning: the values of albedo go from 0.5 to 2: those above 1 for 1 are taken"));
-  EXPECT_THAT(messages(vol(1, 1, 1, 1, {NAN})), ElementsAre("error: the value at (0, 0, 0) is nan [finite numbers]"));
+  EXPECT_THAT(messages(vol(1, 1, 1, 1, {NAN})), ElementsAre(HasSubstr("error: the value at (0, 0, 0) is nan")));
   EXPECT_THAT(messages(vol(1, 1, 1, 2, {1, 1})), ElementsAre("error: a volume of 2 channels [1, 3 or 6 channels]"));
   EXPECT_THAT(messages(vol(100000, 100000, 100000, 3, {1})), ElementsAre(HasSubstr("do not fit")));
   EXPECT_THAT(messages(vol(1, 1, 1, 1, {1e30f})),

@@ -41,9 +41,9 @@ std::string parallel_camera(const std::string& inside = "") {
 Rgb mean_of(const Image& image) {
   const auto picture = picture_of(image);
   Rgb mean{};
-  const int n = image.width() * image.height();
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
+  const int n = image.width * image.height;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
       for (std::size_t c = 0; c < 3; ++c) mean[c] += picture.at(x, y)[c] / n;
     }
   }
@@ -112,7 +112,7 @@ TEST_F(Media, ASlabScattersOnce) {
 TEST_F(Media, AFurnaceStaysWhite) {
   const std::string medium = interior(R"(<rgb name="sigma_t" value="0.3 1 3"/>)" + number("albedo", 1) +
                                       R"(<phase type="hg"><float name="g" value="0.7"/></phase>)");
-  for (const std::string bsdf :
+  for (const std::string& bsdf :
        {kNull, std::string(R"(<bsdf type="thindielectric"/>)"), std::string(R"(<bsdf type="dielectric"/>)")})
     expect_near(mean(volpath(-1) + parallel_camera() + cube(medium, bsdf) + kWhiteSky, 2048), {1, 1, 1}, 2e-3);
 }
