@@ -7,6 +7,7 @@
 #include "bsdf/conductor.h"
 #include "bsdf/dielectric.h"
 #include "bsdf/diffuse.h"
+#include "bsdf/hair.h"
 #include "bsdf/mask.h"
 #include "bsdf/normalmap.h"
 #include "bsdf/null.h"
