@@ -86,7 +86,7 @@ std::vector<PluginInfo> plugins() {
       [](auto* compile, Parameters& p, Shapes& shapes) {
         const std::optional<ShapeGeometry> geometry = compile(p, shapes);
         if (geometry && geometry->of_shapes) return;
-        for (const char* kind : {"bsdf", "emitter"}) p.children(kind);
+        for (const char* kind : {"bsdf", "emitter", "sensor"}) p.children(kind);
       },
       all);
   return all;

@@ -36,6 +36,9 @@ const T* data_or_one(const Array<T>& values) {
 template <class Frame>
 void set_frame_from(const Frame& frame, const SceneTables& tables, SceneView& view) {
   view.camera = frame.camera;
+  view.batch = frame.batch.data();
+  view.batch_count = static_cast<std::uint32_t>(frame.batch.size());
+  view.meter = frame.meter.data();
   view.film = frame.film;
   view.filter = frame.filter.data();
   view.sampler = frame.sampler;

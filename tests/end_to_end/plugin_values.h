@@ -28,6 +28,7 @@ inline constexpr Needed kNeeded[] = {{"bsdf", "mask", NORRSKEN_DIFFUSE},
                                      {"bsdf", "bumpmap", NORRSKEN_RELIEF NORRSKEN_DIFFUSE},
                                      {"bsdf", "normalmap", NORRSKEN_DIFFUSE},
                                      {"bsdf", "twosided", NORRSKEN_DIFFUSE},
+                                     {"sensor", "batch", R"(<sensor type="perspective"/>)"},
                                      {"shape", "shapegroup", R"(<shape type="sphere"/>)"},
                                      {"shape", "instance", R"(<ref id="group"/>)"},
                                      {"integrator", "moment", R"(<integrator type="path"/>)"}};
