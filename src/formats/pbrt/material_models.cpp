@@ -227,6 +227,8 @@ Node Materials::make_hair(Definition& definition) {
                                      : map({brown, red}, [](const std::vector<glm::dvec3>& amount) {
                                          return amount[0].r * kEumelanin + amount[1].r * kPheomelanin;
                                        });
+  context_.tell(p.place(), "light that passes through a hair meets the far side of its tube as another hair",
+                "hairs that are somewhat darker and rougher than pbrt's, which are flat");
   Node node = make_node("bsdf", "hair", p.place());
   give_color(context_, node, "sigma_a", absorption, p.place());
   give(node, "longitudinal_roughness", beta_m, p.place());
