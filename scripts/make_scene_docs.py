@@ -29,7 +29,7 @@ ENLARGED = ("rfilter", "sampler")  # families whose pictures are about single pi
 # Heading, folder, element of the scene file, lists (src/lists) that name its plugins, header with the block of the whole family.
 FAMILIES = [
     ("Integrators", "integrator", "integrator", ["integrator"], "integrator_host.h"),
-    ("Sensors", "camera", "sensor", ["camera"], None),
+    ("Sensors", "camera", "sensor", ["camera", "meter", "sensor_adapter"], None),
     ("Films", "camera", "film", ["film"], None),
     ("Reconstruction filters", "rfilter", "rfilter", ["rfilter"], None),
     ("Samplers", "sampler", "sampler", ["sampler"], None),

@@ -97,8 +97,8 @@ TEST(BsdfHost, AShapeWithoutBsdfIsDiffuseOfAHalf) {
 TEST(BsdfHost, TellsMisspeltFromMissing) {
   EXPECT_THAT(compile_bsdf(R"(<bsdf type="difuse"/>)").messages(),
               ElementsAre(StartsWith("error: unknown bsdf 'difuse', did you mean 'diffuse'? [")));
-  EXPECT_THAT(compile_bsdf(R"(<bsdf type="hair"/>)").messages(),
-              ElementsAre(StartsWith("error: bsdf 'hair' is not supported yet [")));
+  EXPECT_THAT(compile_bsdf(R"(<bsdf type="measured"/>)").messages(),
+              ElementsAre(StartsWith("error: bsdf 'measured' is not supported yet [")));
 }
 
 /// As Blender's exporter writes every tint: what counts, and is held against the range, is the mean.

@@ -27,15 +27,19 @@ struct BsdfCase {
   double most = 1;                     ///< share of the light that may come back
   double least = 0;                    ///< share of the light that has to
   std::string_view one_way_because{};  ///< why what goes through is not reciprocal; empty where it is
+  bool also_reflected = false;         ///< that what is thrown back is not reciprocal either
 };
 inline void PrintTo(const BsdfCase& c, std::ostream* out) { *out << c.plugin << ", " << c.name; }
 
 inline constexpr BsdfCase kBsdfCaseTable[] = {
 #define NORRSKEN_BSDF_CASE(kind, name, most, inside) {#kind, name, inside, most},
 #define NORRSKEN_BSDF_CASE_ONE_WAY(kind, name, most, because, inside) {#kind, name, inside, most, 0, because},
+#define NORRSKEN_BSDF_CASE_NOT_RECIPROCAL(kind, name, most, because, inside) \
+  {#kind, name, inside, most, 0, because, true},
 #define NORRSKEN_BSDF_FURNACE(...)
 #include "bsdf/bsdf_test_cases.def"
 #undef NORRSKEN_BSDF_FURNACE
+#undef NORRSKEN_BSDF_CASE_NOT_RECIPROCAL
 #undef NORRSKEN_BSDF_CASE_ONE_WAY
 #undef NORRSKEN_BSDF_CASE
 };
@@ -43,9 +47,11 @@ inline constexpr BsdfCase kBsdfCaseTable[] = {
 inline constexpr BsdfCase kFurnaceTable[] = {
 #define NORRSKEN_BSDF_CASE(...)
 #define NORRSKEN_BSDF_CASE_ONE_WAY(...)
+#define NORRSKEN_BSDF_CASE_NOT_RECIPROCAL(...)
 #define NORRSKEN_BSDF_FURNACE(kind, name, least, most, inside) {#kind, name, inside, most, least},
 #include "bsdf/bsdf_test_cases.def"
 #undef NORRSKEN_BSDF_FURNACE
+#undef NORRSKEN_BSDF_CASE_NOT_RECIPROCAL
 #undef NORRSKEN_BSDF_CASE_ONE_WAY
 #undef NORRSKEN_BSDF_CASE
 };

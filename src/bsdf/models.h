@@ -8,6 +8,7 @@
 #include "bsdf/dielectric.h"
 #include "bsdf/diffuse.h"
 #include "bsdf/gltf.h"
+#include "bsdf/hair.h"
 #include "bsdf/mask.h"
 #include "bsdf/normalmap.h"
 #include "bsdf/null.h"

@@ -12,7 +12,8 @@
 #pragma once
 
 #include "math/warp.h"
-#include "tables/scene_tables.h"
+#include "tables/meter_tables.h"
+#include "tables/wave_types.h"
 
 namespace norrsken::NORRSKEN_ISA {
 
@@ -26,9 +27,15 @@ NORRSKEN_INLINE Vec3f film_point(const CameraRecord& camera, Float px, Float py)
   return fma(broadcast(camera.du), px, fma(broadcast(camera.dv), py, broadcast(camera.base)));
 }
 
+/// What a step along a ray is along the camera's axis. Sensors without an axis, whose rays go anywhere, have a `forward` of
+/// zero, and planes that are infinitely far away.
+NORRSKEN_INLINE Float axial_share(const CameraRecord& camera, const Vec3f& direction) {
+  return max(abs(dot(direction, broadcast(camera.forward))), 1e-30f);
+}
+
 /// How far along a ray behind its beginning the camera is.
 NORRSKEN_INLINE Float distance_to_near_plane(const CameraRecord& camera, const Vec3f& direction) {
-  return Float(camera.near_clip) / dot(direction, broadcast(camera.forward));
+  return Float(camera.near_clip) / axial_share(camera, direction);
 }
 
 /// The ray through `origin`, begun where it meets the near plane.
@@ -38,7 +45,7 @@ NORRSKEN_INLINE CameraRay start_at_near_plane(const CameraRecord& camera, const 
 
 /// How far along a ray from the near plane the far plane is.
 NORRSKEN_INLINE Float distance_to_far_plane(const CameraRecord& camera, const Vec3f& direction) {
-  return Float(camera.far_clip - camera.near_clip) / dot(direction, broadcast(camera.forward));
+  return Float(camera.far_clip - camera.near_clip) / axial_share(camera, direction);
 }
 
 }  // namespace norrsken::NORRSKEN_ISA

@@ -9,8 +9,6 @@
 namespace norrsken {
 namespace {
 
-constexpr double kFarthest = 8 * kMaxCoordinate;  // no two points are so far apart
-
 constexpr NumberParameter kNearClip{.name = "near_clip",
                                     .fallback = 1e-2,
                                     .range = above(0, kMaxCoordinate),

@@ -9,6 +9,8 @@
 
 namespace norrsken {
 
+inline constexpr double kFarthest = 8 * kMaxCoordinate;  ///< no two points are so far apart
+
 /// Local axes of a sensor in the world: it looks along `forward`, +y is up and +x to the left.
 struct CameraFrame {
   glm::dvec3 origin, left, up, forward;

@@ -20,6 +20,8 @@ namespace {
 
 /// Adapters within adapters: far more than any scene needs, far fewer than the stack holds.
 constexpr int kMaxBsdfDepth = 64;
+/// Textures within textures: kernels look them up one inside the other.
+constexpr int kMaxTextureDepth = 8;
 
 /// Sensors, which a scene without any has by then, and integrators.
 Description outline_of(const Description& description, const std::optional<Node>& default_sensor) {
@@ -62,6 +64,7 @@ void Builder::refuse_kinds_to_come(Parameters& parameters) {
 }
 
 void Builder::describe(const Node& node, std::string detail) {
+  if (is_silent_) return;
   scene_.info.items.push_back({node.kind, node.plugin, node.id, std::move(detail)});
 }
 
@@ -104,11 +107,21 @@ Texture Builder::texture(const Node& node) {
     return known->second;
   }
   Texture texture;
-  if (const auto* plugin = find_plugin(texture_plugins(), node, diagnostics_)) {
+  if (const Node* inside = texture_in_daylight(node)) {
+    Parameters p = parameters(node);
+    read_daylight(p);
+    p.finish();
+    texture = this->texture(*inside);
+  } else if (texture_depth_ == kMaxTextureDepth) {
+    diagnostics_.error(node.location, fmt::format("textures are nested more than {} deep", kMaxTextureDepth),
+                       fmt::format("up to {} inside each other", kMaxTextureDepth));
+  } else if (const auto* plugin = find_plugin(texture_plugins(), node, diagnostics_)) {
+    ++texture_depth_;
     Parameters p = parameters(node);
     Textures textures(*this);
     texture = plugin->compile(p, textures);
     p.finish();
+    --texture_depth_;
   }
   textures_.emplace(&node, texture);
   vary(variation_of(texture));

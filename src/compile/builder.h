@@ -24,6 +24,7 @@
 #include "compile/media.h"
 #include "compile/mesh_attributes.h"
 #include "compile/plugin_table.h"
+#include "compile/scene_children.h"
 #include "compile/shapes.h"
 #include "compile/texture.h"
 #include "scene/parameters.h"
@@ -36,7 +37,7 @@ inline constexpr std::uint64_t kMaxFilmPixels = std::uint64_t{1} << 28;
 class Builder {
  public:
   Builder(const Description& description, const FileSystem& files, Diagnostics& diagnostics)
-      : description_(description), files_(files), diagnostics_(diagnostics) {}
+      : description_(with_sensors_of_shapes(description)), files_(files), diagnostics_(diagnostics) {}
 
   /// Compiles the whole scene; look at the diagnostics before using what comes out.
   LoadedScene build(const LoadOptions& options);
@@ -93,6 +94,10 @@ class Builder {
   SceneLayers& layers() { return scene_.layers; }
   /// The filter of a film node; Mitsuba's, gaussian, if it names none.
   FilterRecord rfilter(Parameters& film);
+  /// The surface of a shape of which a sensor measures; empty after a complaint, which `is_heard` or not.
+  std::optional<ShapeGeometry> surface(const Node& shape, bool is_heard);
+  /// The camera of a sensor inside another one, for a part of its film.
+  CameraRecord sensor_inside(const Node& sensor, const FilmSettings& film);
   /// A line for `norrsken info`.
   void describe(const Node& node, std::string detail);
 
@@ -146,7 +151,7 @@ class Builder {
   auto compile_chosen(const Node::Child* child, const char* kind, const char* fallback, const Replacement& replacement,
                       std::span<const Plugin<Function>> table, std::string& plugin_name, Tools&&... tools);
 
-  const Description& description_;
+  const Description description_;
   const FileSystem& files_;
   Diagnostics& diagnostics_;
   LoadedScene scene_;
@@ -164,11 +169,13 @@ class Builder {
   std::map<const Node*, const Node*> textures_by_uv_;
   std::optional<Material> default_material_;
   bool is_frame_alone_ = false;
+  bool is_silent_ = false;              ///< nothing is described
   std::shared_ptr<const Node> sensor_;  ///< that is used
   std::optional<Node> default_sensor_;  ///< of a scene that has none
   bool is_whole_ = true;  ///< whether the scene was read without errors: what is missing is not in the file
   Variation variation_ = Variation::none;  ///< of what is being compiled
   int bsdf_depth_ = 0;
+  int texture_depth_ = 0;
   int integrator_depth_ = 0;
   double sampling_weight_ = 1;  ///< of the emitter that is being compiled
   std::vector<const Node*> beyond_view_;

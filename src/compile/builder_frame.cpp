@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/text.h"
 #include "compile/builder.h"
 #include "compile/crop_window.h"
 #include "compile/default_sensor.h"
@@ -23,6 +24,18 @@ constexpr int kMaxIntegratorDepth = 8;
 
 /// Of which a sensor has one or the other.
 constexpr std::pair<std::string_view, std::string_view> kExclusive[] = {{"fov", "focal_length"}};
+
+/// Whether it has a picture of what lies before it, so that a path from elsewhere can be connected to it.
+bool is_camera(CameraKind kind) {
+  switch (kind) {
+#define NORRSKEN_CAMERA(name, Model) case CameraKind::name:
+#include "lists/camera.def"
+#undef NORRSKEN_CAMERA
+    return true;
+    default:
+      return false;
+  }
+}
 
 void remove_property(std::string_view name, Node& node) {
   std::erase_if(node.properties, [name](const Property& known) { return known.name == name; });
@@ -233,11 +246,32 @@ void Builder::compile_sensor(Parameters& scene, const ViewOptions& view, bool re
 
 void Builder::compile_camera(Parameters& sensor, CompileSensor* compile) {
   Sensors sensors(*this);
+  tables().batch.clear();
+  tables().meter.clear();
   tables().camera = compile(sensor, sensors, tables().film);
   tables().camera.medium = medium_around(sensor);
+  if (tables().integrator.from_lights && !is_camera(tables().camera.kind)) {
+    diagnostics_.error(sensor.node().plugin_location,
+                       fmt::format("nothing that begins at the lights finds sensor {}, as paths of integrator {} would",
+                                   quoted(sensor.node().plugin), quoted(scene_.info.integrator)),
+                       "another integrator, or another sensor");
+  }
   view_place_ = sensor.where("far_clip");
   refuse_kinds_to_come(sensor);
   sensor.finish();
+}
+
+CameraRecord Builder::sensor_inside(const Node& node, const FilmSettings& part) {
+  const auto* plugin = find_plugin(sensor_plugins(), node, diagnostics_);
+  if (!plugin) return {};
+  Parameters p = parameters(node);
+  Sensors sensors(*this);
+  CameraRecord camera = plugin->compile(p, sensors, part);
+  camera.medium = medium_around(p);
+  for (const char* kind : {"film", "sampler"}) p.children(kind);
+  refuse_kinds_to_come(p);
+  p.finish();
+  return camera;
 }
 
 void Builder::compile_default_camera() {

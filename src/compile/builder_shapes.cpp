@@ -170,8 +170,24 @@ void Builder::compile_shape(Parameters& p, CompileShape* compile) {
       record.variation = std::max(record.variation, variation_);
     }
   }
+  p.children("sensor");  // which stand beside the shape
   refuse_kinds_to_come(p);
   p.finish();
+}
+
+std::optional<ShapeGeometry> Builder::surface(const Node& node, bool is_heard) {
+  Diagnostics unheard;
+  Diagnostics& diagnostics = is_heard ? diagnostics_ : unheard;
+  const auto* plugin = find_plugin(shape_plugins(), node, diagnostics);
+  if (!plugin) return std::nullopt;
+  Parameters p(node, description_, files_, diagnostics);
+  Shapes shapes(*this);
+  is_silent_ = true;
+  std::optional<ShapeGeometry> surface = plugin->compile(p, shapes);
+  is_silent_ = false;
+  for (const char* kind : {"bsdf", "emitter", "sensor"}) p.children(kind);
+  p.finish();
+  return surface;
 }
 
 std::uint32_t Builder::shape_group(const Node& node) {

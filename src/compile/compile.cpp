@@ -120,6 +120,8 @@ SceneFrame LoadedScene::frame(const ViewOptions& looked_at) const {
   SceneFrame frame;
   frame.is_as_loaded = true;
   frame.camera = tables.camera;
+  frame.batch = tables.batch;
+  frame.meter = tables.meter;
   frame.film = tables.film;
   frame.filter = tables.filter;
   frame.sampler = tables.sampler;

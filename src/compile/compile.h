@@ -17,6 +17,8 @@ namespace norrsken {
 /// looked at in any number of ways; what is expensive does not depend on it.
 struct SceneFrame {
   CameraRecord camera{};
+  Array<CameraRecord> batch;
+  Array<float> meter;
   FilmSettings film;
   Array<float> filter;
   SamplerSettings sampler;

@@ -54,9 +54,9 @@ TEST(Compile, ASceneWithoutASensorIsLookedAtAsInMitsuba) {
 
 TEST(Compile, WhatNothingUsesNeedNotBeSupported) {
   const std::string scene = kSensor + kShape + kEmitter;
-  EXPECT_THAT(
-      compile_elements(scene + R"(<bsdf type="hair" id="fur"/>)").messages(),
-      ElementsAre(StartsWith("warning: nothing uses 'fur', which is left out: bsdf 'hair' is not supported yet [")));
+  EXPECT_THAT(compile_elements(scene + R"(<bsdf type="measured" id="fur"/>)").messages(),
+              ElementsAre(StartsWith(
+                  "warning: nothing uses 'fur', which is left out: bsdf 'measured' is not supported yet [")));
   EXPECT_THAT(compile_elements(scene + R"(<bsdf type="twosided"><bsdf type="difuse"/></bsdf>)").messages(),
               ElementsAre(StartsWith("warning: nothing uses this bsdf, which is left out: unknown bsdf "
                                      "'difuse', did you mean 'diffuse'? [")));
@@ -69,7 +69,7 @@ TEST(Compile, WhatNothingUsesNeedNotBeSupported) {
               ElementsAre("warning: nothing refers to medium 'homogeneous', which has no effect by itself"));
   // What is used must be, however far behind.
   for (const std::string& used :
-       {std::string(R"(<bsdf type="hair" id="fur"/><bsdf type="twosided" id="b"><ref id="fur"/></bsdf>)"
+       {std::string(R"(<bsdf type="measured" id="fur"/><bsdf type="twosided" id="b"><ref id="fur"/></bsdf>)"
                     R"(<shape type="sphere"><ref id="b"/></shape>)"),
         group + R"(<shape type="instance"><ref id="g"/></shape>)",
         std::string(R"(<medium type="foggy" id="m"/><shape type="sphere"><ref id="m" name="interior"/></shape>)")})

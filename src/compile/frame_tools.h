@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compile/plugin_tools.h"
+#include "compile/shape_geometry.h"
 #include "tables/layers.h"
 
 namespace norrsken {
@@ -10,7 +11,19 @@ namespace norrsken {
 /// Bounds on what a scene may ask for.
 inline constexpr int kMaxFilmSide = 65536;
 
-using Sensors = PluginTools;  ///< which describe themselves and need nothing else
+class Sensors : public PluginTools {
+ public:
+  using PluginTools::PluginTools;
+  /// Of a shape in the scene, what is wrong with it is told elsewhere.
+  enum class IsInScene { no, yes };
+  /// The surface of a shape, which does not get into the picture by that; empty after a complaint.
+  std::optional<ShapeGeometry> surface(const Node& shape, IsInScene is_in_scene);
+  /// Pieces of surface: tables/meter_tables.h.
+  Array<float>& meter();
+  /// A sensor inside another one, for a part of the film. It must be no batch.
+  CameraRecord inside(const Node& sensor, const FilmSettings& film);
+  void join(const CameraRecord& camera);
+};
 
 class Films : public PluginTools {
  public:
@@ -38,6 +51,12 @@ using CompileIntegrator = IntegratorSettings(Parameters&, Integrators&);
 #define NORRSKEN_CAMERA(kind, Model) CompileSensor compile_sensor_##kind;
 #include "lists/camera.def"
 #undef NORRSKEN_CAMERA
+#define NORRSKEN_METER(kind, Model) CompileSensor compile_sensor_##kind;
+#include "lists/meter.def"
+#undef NORRSKEN_METER
+#define NORRSKEN_SENSOR_ADAPTER(kind) CompileSensor compile_sensor_##kind;
+#include "lists/sensor_adapter.def"
+#undef NORRSKEN_SENSOR_ADAPTER
 #define NORRSKEN_FILM(name) CompileFilm compile_film_##name;
 #include "lists/film.def"
 #undef NORRSKEN_FILM

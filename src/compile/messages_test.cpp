@@ -28,18 +28,18 @@ TEST(Messages, UnknownPlugin) {
             R"(scene.xml:9:17: error: unknown bsdf 'difuse', did you mean 'diffuse'?
     9 |     <bsdf type="difuse"/>
       |                 ^~~~~~
-accepted: blendbsdf, bumpmap, conductor, dielectric, diffuse, gltf, mask, normalmap, null, plastic, principled, principledthin, roughconductor, roughdielectric, roughplastic, thindielectric, twosided
+accepted: blendbsdf, bumpmap, conductor, dielectric, diffuse, gltf, hair, mask, normalmap, null, plastic, principled, principledthin, roughconductor, roughdielectric, roughplastic, thindielectric, twosided
 )");
 }
 
 TEST(Messages, PluginToCome) {
   EXPECT_EQ(complaints(R"(  <shape type="sphere">
-    <bsdf type="hair"/>
+    <bsdf type="measured"/>
   </shape>)"),
-            R"(scene.xml:9:17: error: bsdf 'hair' is not supported yet
-    9 |     <bsdf type="hair"/>
-      |                 ^~~~
-accepted: blendbsdf, bumpmap, conductor, dielectric, diffuse, gltf, mask, normalmap, null, plastic, principled, principledthin, roughconductor, roughdielectric, roughplastic, thindielectric, twosided
+            R"(scene.xml:9:17: error: bsdf 'measured' is not supported yet
+    9 |     <bsdf type="measured"/>
+      |                 ^~~~~~~~
+accepted: blendbsdf, bumpmap, conductor, dielectric, diffuse, gltf, hair, mask, normalmap, null, plastic, principled, principledthin, roughconductor, roughdielectric, roughplastic, thindielectric, twosided
 )");
 }
 

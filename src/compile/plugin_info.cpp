@@ -90,7 +90,7 @@ std::vector<PluginInfo> plugins() {
       [](auto* compile, Parameters& p, Shapes& shapes) {
         const std::optional<ShapeGeometry> geometry = compile(p, shapes);
         if (geometry && geometry->of_shapes) return;
-        for (const char* kind : {"bsdf", "emitter", "medium"}) p.children(kind);
+        for (const char* kind : {"bsdf", "emitter", "medium", "sensor"}) p.children(kind);
       },
       all);
   return all;

@@ -70,6 +70,14 @@ bool Shapes::add_instance(std::uint32_t group, const glm::dmat4& world_from_obje
   return builder_.geometry().add_instance(group, world_from_object);
 }
 
+std::optional<ShapeGeometry> Sensors::surface(const Node& shape, IsInScene is_in_scene) {
+  return builder_.surface(shape, /*is_heard=*/is_in_scene == IsInScene::no);
+}
+Array<float>& Sensors::meter() { return builder_.tables().meter; }
+CameraRecord Sensors::inside(const Node& sensor, const FilmSettings& film) {
+  return builder_.sensor_inside(sensor, film);
+}
+void Sensors::join(const CameraRecord& camera) { builder_.tables().batch.push_back(camera); }
 FilterRecord Films::rfilter(Parameters& film) { return builder_.rfilter(film); }
 SceneLayers& Integrators::layers() { return builder_.layers(); }
 IntegratorSettings Integrators::inside(const Node& node) { return builder_.integrator(node); }

@@ -117,6 +117,12 @@ std::span<const Plugin<CompileSensor>> sensor_plugins() {
 #define NORRSKEN_CAMERA(kind, Model) {#kind, compile_sensor_##kind},
 #include "lists/camera.def"
 #undef NORRSKEN_CAMERA
+#define NORRSKEN_METER(kind, Model) {#kind, compile_sensor_##kind},
+#include "lists/meter.def"
+#undef NORRSKEN_METER
+#define NORRSKEN_SENSOR_ADAPTER(kind) {#kind, compile_sensor_##kind},
+#include "lists/sensor_adapter.def"
+#undef NORRSKEN_SENSOR_ADAPTER
   };
   return kTable;
 }

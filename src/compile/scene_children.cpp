@@ -45,6 +45,28 @@ std::vector<const Node*> nodes_below(std::vector<const Node*> open) {
   return nodes;
 }
 
+Description with_sensors_of_shapes(Description description) {
+  const auto is_sensor = [](const Node::Child& child) { return child.node->kind == "sensor"; };
+  const auto has_sensor = [&](const Node::Child& child) {
+    return child.node->kind == "shape" && std::ranges::any_of(child.node->children, is_sensor);
+  };
+  if (!description.scene || std::ranges::none_of(description.scene->children, has_sensor)) return description;
+  auto scene = std::make_shared<Node>(*description.scene);
+  scene->children.clear();
+  for (const Node::Child& child : description.scene->children) {
+    scene->children.push_back(child);
+    if (!has_sensor(child)) continue;
+    for (const Node::Child& inside : child.node->children) {
+      if (!is_sensor(inside)) continue;
+      auto sensor = std::make_shared<Node>(*inside.node);
+      if (sensor->plugin == "irradiancemeter") sensor->add(child.node);
+      scene->children.push_back({inside.name, std::move(sensor), inside.location});
+    }
+  }
+  description.scene = std::move(scene);
+  return description;
+}
+
 std::set<const Node*> nodes_inside_of_others(const Node& scene) {
   std::set<const Node*> inside;
   for (const Node* node : nodes_below({&scene})) {

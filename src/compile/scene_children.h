@@ -10,6 +10,9 @@
 
 namespace norrsken {
 
+/// The same with the sensors that stand inside of shapes beside these, which those that measure a shape then hold.
+Description with_sensors_of_shapes(Description description);
+
 /// All nodes below the scene's own children: those that a `ref` puts there stand in the scene too.
 std::set<const Node*> nodes_inside_of_others(const Node& scene);
 

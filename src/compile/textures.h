@@ -9,9 +9,9 @@ namespace norrsken {
 
 class ImageStore;
 
-class Textures : public PluginTools {
+class Textures : public TexturedTools {
  public:
-  using PluginTools::PluginTools;
+  using TexturedTools::TexturedTools;
 
   /// Stores a texture's block and returns the word that leads to it.
   template <class Stored>

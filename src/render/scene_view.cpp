@@ -43,6 +43,9 @@ bool passes_light(std::uint32_t bsdf_kinds) {
 template <class Frame>
 void set_frame_from(const Frame& frame, const SceneTables& tables, SceneView& view) {
   view.camera = frame.camera;
+  view.batch = frame.batch.data();
+  view.batch_count = static_cast<std::uint32_t>(frame.batch.size());
+  view.meter = frame.meter.data();
   view.film = frame.film;
   view.filter = frame.filter.data();
   view.sampler = frame.sampler;

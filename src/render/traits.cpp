@@ -79,7 +79,7 @@ Traits traits_of(const SceneTables& t, const SceneFrame& frame, const SceneView&
       fingerprint("reconstruction filter", frame.filter,
                   words({static_cast<std::uint32_t>(filter_record.kind), filter_record.nodes, filter_record.cells,
                          filter_record.edges, filter_record.signs, film.sample_border})),
-      fingerprint("camera", std::span(&frame.camera, 1)),
+      fingerprint("camera", std::span(&frame.camera, 1), frame.batch, frame.meter),
       fingerprint("shapes", t.positions, t.normals, t.texcoords, t.triangle_vertices, t.surfaces, t.shapes, t.analytics,
                   t.instances, words({t.group_count, t.first_analytic, t.needs_uv}), std::span(t.center),
                   std::span(&t.radius, 1)),

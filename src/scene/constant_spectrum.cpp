@@ -1,10 +1,12 @@
-// Model       blackbody, d65, irregular, rawconstant, regular, srgb, uniform
+// Model       blackbody, d65, irregular, rawconstant, regular, rgb, srgb, uniform
 // Parameters
 //   blackbody    temperature (K, above 0): Planck's radiance in W/(m^2 sr nm)
-//   d65          color (rgb, default 1), scale (default 1): in RGB daylight is white
+//   d65          color (rgb, default 1), scale (default 1): in RGB daylight is white; or a nested spectrum or texture, which
+//                it then is, without a scale
 //   irregular    value (spectrum); or wavelengths (nm) and values, strings of numbers
 //   rawconstant  value (float or vector): never converted
 //   regular      value (spectrum); or wavelength_min, wavelength_max (nm) and values, a string of numbers
+//   rgb          value (rgb)
 //   srgb         color (rgb)
 //   uniform      value; wavelength_min and wavelength_max mean nothing in RGB
 // Source      Mitsuba 3's documentation of its spectra, and what its RGB variants make of them
@@ -36,6 +38,7 @@ constexpr NumberParameter kTemperature{.name = "temperature",
                                        .example = R"(<float name="temperature" value="5000"/>)"};
 constexpr NumberParameter kScale{.name = "scale", .fallback = 1};
 constexpr ColorParameter kColor{.name = "color", .fallback = 1};
+constexpr ColorParameter kOwnValue{.name = "value", .example = R"(<rgb name="value" value="0.5 0.5 0.5"/>)"};
 constexpr ColorParameter kOwnColor{.name = "color", .example = R"(<rgb name="color" value="0.5 0.5 0.5"/>)"};
 constexpr BooleanParameter kUnbounded{.name = "unbounded"};
 constexpr NumberParameter kValue{.name = "value", .example = R"(<float name="value" value="0.5"/>)"};
@@ -57,7 +60,21 @@ constexpr NumbersParameter kValues{.name = "values", .example = R"(<string name=
 
 Value blackbody(Parameters& p) { return blackbody_spectrum(p.read(kTemperature)); }
 
+Value rgb(Parameters& p) { return Property::Rgb{to_array(p.read(kOwnValue).rgb())}; }
+
+/// The spectrum or texture that a d65 node has inside, under whatever name.
+const Node* inside_of_daylight(const Node& node) {
+  for (const Node::Child& child : node.children) {
+    if (is_spectrum_or_texture(*child.node) && child.name != kColor.name) return child.node.get();
+  }
+  return nullptr;
+}
+
 Value d65(Parameters& p) {
+  if (const Node* inside = inside_of_daylight(p.node())) {
+    read_daylight(p);
+    return p.constant(*inside);
+  }
   const double scale = p.read(kScale);
   return Property::Rgb{to_array(scale * p.read(kColor).rgb())};
 }
@@ -128,11 +145,12 @@ struct Plugin {
   Value (*read)(Parameters&);
 };
 
-constexpr std::array<Plugin, 7> kPlugins{{{"blackbody", blackbody},
+constexpr std::array<Plugin, 8> kPlugins{{{"blackbody", blackbody},
                                           {"d65", d65},
                                           {"irregular", irregular},
                                           {"rawconstant", rawconstant},
                                           {"regular", regular},
+                                          {"rgb", rgb},
                                           {"srgb", srgb},
                                           {"uniform", uniform}}};
 
@@ -145,7 +163,25 @@ const Plugin* find(const Node& node) {
 
 bool is_spectrum_or_texture(const Node& node) { return node.kind == "spectrum" || node.kind == "texture"; }
 
-bool is_constant_spectrum(const Node& node) { return is_spectrum_or_texture(node) && find(node) != nullptr; }
+bool is_constant_spectrum(const Node& node) {
+  return is_spectrum_or_texture(node) && find(node) != nullptr && texture_in_daylight(node) == nullptr;
+}
+
+const Node* texture_in_daylight(const Node& node) {
+  if (!is_spectrum_or_texture(node) || node.plugin != "d65") return nullptr;
+  const Node* inside = inside_of_daylight(node);
+  return inside != nullptr && !is_constant_spectrum(*inside) ? inside : nullptr;
+}
+
+void read_daylight(Parameters& node) {
+  for (const char* kind : {"spectrum", "texture"}) node.children(kind);
+  node.read(kScale);
+  if (!node.has(kScale.name)) return;
+  node.diagnostics().note(
+      node.where(kScale.name),
+      "'scale' of a d65 with a spectrum or texture inside has no effect, as in Mitsuba's RGB variants",
+      "a scale of the emitter, or of the values inside");
+}
 
 Property::Spectrum blackbody_spectrum(double temperature, double scale) {
   Property::Spectrum spectrum;
@@ -156,11 +192,6 @@ Property::Spectrum blackbody_spectrum(double temperature, double scale) {
   return spectrum;
 }
 
-Property read_constant_spectrum(Parameters& node) {
-  Property property;
-  property.type = node.node().kind;
-  property.value = find(node.node())->read(node);
-  return property;
-}
+Property::Value read_constant_spectrum(Parameters& node) { return find(node.node())->read(node); }
 
 }  // namespace norrsken

@@ -84,6 +84,9 @@ class Parameters {
 
   /// The child nodes of one kind, in order; counts as asking for them.
   std::vector<const Node::Child*> children(std::string_view kind);
+  /// The value of a node of one value, as the property that would say the same: a number, a colour or a spectrum. After a
+  /// complaint anything.
+  Property::Value constant(const Node& node);
   /// At most one child of that kind; more are an error.
   const Node::Child* child(std::string_view kind);
 

@@ -30,6 +30,7 @@ TEST_F(ParametersTest, NodesOfOneValueAreColours) {
   EXPECT_TRUE(near(color("d65", {}), glm::dvec3(1)));
   EXPECT_TRUE(near(color("d65", {rgb, property("scale", "float", 3.0)}, true), {0.3, 0.6, 1.2}));
   EXPECT_TRUE(near(color("srgb", {rgb}), {0.1, 0.2, 0.4}));
+  EXPECT_TRUE(near(color("rgb", {property("value", "rgb", Property::Rgb{{0.1, 0.2, 0.4}})}), {0.1, 0.2, 0.4}));
   EXPECT_TRUE(near(color("rawconstant", {property("value", "vector", Property::Vector{{1, 2, 4}})}), {1, 2, 4}));
   EXPECT_TRUE(near(color("rawconstant", {property("value", "float", 0.5)}), glm::dvec3(0.5)));
   const glm::dvec3 reflectance(0.315818, 0.772604, 0.511516), emission(0.419126, 0.7336, 0.451901);

@@ -77,10 +77,16 @@ const Property* Parameters::find_value(std::string_view name, std::string_view a
   if (!child || !is_constant_spectrum(*child->node)) return find_as<Types...>(name, accepted);
   asked_names_.emplace(name);
   const auto errors = diagnostics_.error_count();
-  Parameters inside(*child->node, description_, files_, diagnostics_);
-  storage = read_constant_spectrum(inside);
-  inside.finish();
+  storage.type = child->node->kind;
+  storage.value = constant(*child->node);
   return diagnostics_.error_count() == errors ? &storage : nullptr;
+}
+
+Property::Value Parameters::constant(const Node& node) {
+  Parameters inside(node, description_, files_, diagnostics_);
+  Property::Value value = read_constant_spectrum(inside);
+  inside.finish();
+  return value;
 }
 
 bool Parameters::read(const BooleanParameter& boolean) {

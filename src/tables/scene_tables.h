@@ -180,11 +180,17 @@ struct LightNode {
   std::uint32_t parent;
 };
 
-/// Camera models as kernels tell them apart.
+/// Sensors as kernels tell them apart.
 enum class CameraKind : std::uint32_t {
 #define NORRSKEN_CAMERA(kind, Model) kind,
 #include "lists/camera.def"
 #undef NORRSKEN_CAMERA
+#define NORRSKEN_METER(kind, Model) kind,
+#include "lists/meter.def"
+#undef NORRSKEN_METER
+#define NORRSKEN_SENSOR_ADAPTER(kind) kind,
+#include "lists/sensor_adapter.def"
+#undef NORRSKEN_SENSOR_ADAPTER
   count
 };
 
@@ -198,8 +204,9 @@ struct CameraRecord {
   float dv[3];
   float forward[3];  ///< unit; near and far are distances along it
   float near_clip, far_clip;
-  float lens_x[3], lens_y[3];  ///< thinlens: radii of the lens
-  std::uint32_t medium;        ///< that it stands in, or kNone
+  float lens_x[3], lens_y[3];              ///< thinlens: radii of the lens
+  std::uint32_t first_piece, piece_count;  ///< meters: floats in `meter` before, and number of, the surface's pieces
+  std::uint32_t medium = kNone;            ///< that it stands in, or kNone
 };
 
 enum class SamplerKind : std::uint32_t { independent, sobol };
@@ -303,6 +310,8 @@ struct SceneTables {
   float center[3] = {};                ///< of a sphere around all surfaces
   float radius = 0;
   CameraRecord camera{};
+  Array<CameraRecord> batch;  ///< the cameras that a batch joins side by side
+  Array<float> meter;         ///< pieces of surface that meters look at or stand on: meter_tables.h
   FilmSettings film;
   Array<float> filter;
   SamplerSettings sampler;

@@ -62,6 +62,9 @@ struct SceneView {
   bool any_grid_medium = false;
   bool any_area_light = false;
   CameraRecord camera;
+  const CameraRecord* batch = nullptr;  ///< the cameras that a batch joins side by side
+  std::uint32_t batch_count = 0;
+  const float* meter = nullptr;  ///< pieces of surface that meters look at or stand on
   FilmSettings film;
   std::uint32_t features = 0;     ///< bit k: Feature k is wanted
   const float* filter = nullptr;  ///< the reconstruction filter's table, if it has one

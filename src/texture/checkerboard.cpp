@@ -4,8 +4,9 @@
 // Mitsuba's images show it.
 #include "texture/checkerboard.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <glm/common.hpp>
 
 #include "compile/textures.h"
 #include "texture/texture_host.h"
@@ -17,23 +18,46 @@ constexpr ColorParameter kColor0{
     .name = "color0", .fallback = 0.4, .text = "where both coordinates are in the same half of their unit"};
 constexpr ColorParameter kColor1{.name = "color1", .fallback = 0.2, .text = "elsewhere"};
 
+/// A colour, or the texture in its place: both as textures are told of.
+struct Square {
+  ColorSlot color, number;
+  glm::dvec3 mean;
+  double min, max;
+};
+
+Square read_square(Parameters& p, Textures& textures, const ColorParameter& parameter) {
+  const auto slot = [](const glm::dvec3& c, TextureWord word) {
+    const glm::vec3 v(c);
+    return ColorSlot{{v.x, v.y, v.z}, word};
+  };
+  const auto grey = [](const glm::dvec3& c) { return glm::dvec3((c.x + c.y + c.z) / 3); };
+  const Node::Child* child = p.texture(parameter.name);
+  if (child == nullptr) {
+    const glm::dvec3 c = p.read(parameter).rgb();
+    return {slot(c, 0), slot(grey(c), 0), c, std::min({c.x, c.y, c.z}), std::max({c.x, c.y, c.z})};
+  }
+  const Texture inside = textures.texture(*child->node);
+  if (texture_kind(inside.word) == TextureKind::mesh_attribute) {
+    p.error(parameter.name, fmt::format("'{}' is a mesh_attribute", parameter.name),
+            "a value, or a texture that looks at texture coordinates");
+  }
+  return {slot(inside.mean, inside.word), slot(grey(inside.mean), inside.number != 0 ? inside.number : inside.word),
+          inside.mean, inside.min, inside.max};
+}
+
 }  // namespace
 
 Texture compile_texture_checkerboard(Parameters& p, Textures& textures) {
-  const glm::dvec3 color0 = p.read(kColor0).rgb(), color1 = p.read(kColor1).rgb();
+  const Square first = read_square(p, textures, kColor0), second = read_square(p, textures, kColor1);
   const isa_host::ToUvSlots to_uv = to_uv_slots(p.read(kToUv));
-  const auto add = [&](const glm::vec3& first, const glm::vec3& second) {
-    return textures.add(isa_host::Checkerboard::Stored{
-        .to_uv = to_uv, .color0 = {{first.x, first.y, first.z}}, .color1 = {{second.x, second.y, second.z}}});
-  };
-  const glm::dvec3 low = glm::min(color0, color1), high = glm::max(color0, color1);
   Texture texture;
-  texture.word = add(color0, color1);
-  const auto mean = [](const glm::dvec3& c) { return glm::dvec3((c.x + c.y + c.z) / 3); };
-  texture.number = add(mean(color1), mean(color0));
-  texture.mean = (color0 + color1) / 2.0;
-  texture.min = std::min({low.x, low.y, low.z});
-  texture.max = std::max({high.x, high.y, high.z});
+  texture.word =
+      textures.add(isa_host::Checkerboard::Stored{.to_uv = to_uv, .color0 = first.color, .color1 = second.color});
+  texture.number =
+      textures.add(isa_host::Checkerboard::Stored{.to_uv = to_uv, .color0 = second.number, .color1 = first.number});
+  texture.mean = (first.mean + second.mean) / 2.0;
+  texture.min = std::min(first.min, second.min);
+  texture.max = std::max(first.max, second.max);
   return texture;
 }
 

@@ -36,4 +36,18 @@ NORRSKEN_INLINE Vec2f to_uv(const SceneView& scene, UInt offset, Vec2f uv, Mask 
           fma(element(3), uv.x, fma(element(4), uv.y, element(5)))};
 }
 
+/// The colour of the textures that `words` name: see texture/parameter_reader.h.
+Color evaluate_texture(const SceneView& scene, UInt words, TexturePoint point, Mask active);
+
+/// A colour of a texture's own block, or what the texture in its place has. The host bounds how deep they are nested.
+template <class Block>
+NORRSKEN_INLINE Color gather_color_or_texture(const SceneView& scene, ColorSlot Block::*member, UInt offset,
+                                              const TexturePoint& point, Mask active) {
+  const float* first = scene.parameters + floats_before(member);
+  const Color value = gather_color(first, offset, active);
+  const UInt word = gather_uint(first + 3, offset, active);
+  const Mask textured = active & (word != 0u);
+  return any(textured) ? select(textured, evaluate_texture(scene, word, copied(point), textured), value) : value;
+}
+
 }  // namespace norrsken::NORRSKEN_ISA

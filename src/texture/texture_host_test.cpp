@@ -220,12 +220,56 @@ TEST(CheckerboardHost, StoresItsColours) {
     <transform name="to_uv"><scale x="4" y="5"/></transform></texture>)");
   ASSERT_THAT(c.messages(), IsEmpty());
   const auto p = stored(c, TextureKind::checkerboard);
-  EXPECT_THAT(std::vector(p.begin(), p.begin() + 12),
-              ElementsAre(4, 0, 0, 0, 5, 0, 0.1f, 0.2f, 0.3f, 0.6f, 0.6f, 0.6f));
+  EXPECT_THAT(std::vector(p.begin(), p.begin() + 14),
+              ElementsAre(4, 0, 0, 0, 5, 0, 0.1f, 0.2f, 0.3f, 0, 0.6f, 0.6f, 0.6f, 0));
   const Compiled plain = compile_texture(R"(<texture name="reflectance" type="checkerboard"/>)");
   const auto defaults = stored(plain, TextureKind::checkerboard);
-  EXPECT_THAT(std::vector(defaults.begin(), defaults.begin() + 12),
-              ElementsAre(1, 0, 0, 0, 1, 0, 0.4f, 0.4f, 0.4f, 0.2f, 0.2f, 0.2f));
+  EXPECT_THAT(std::vector(defaults.begin(), defaults.begin() + 14),
+              ElementsAre(1, 0, 0, 0, 1, 0, 0.4f, 0.4f, 0.4f, 0, 0.2f, 0.2f, 0.2f, 0));
+}
+
+TEST(CheckerboardHost, MayHaveTexturesInPlaceOfColours) {
+  const Compiled c = compile_texture(R"(<texture name="reflectance" type="checkerboard">
+    <texture name="color0" type="bitmap">)" +
+                                     kFile + R"(</texture>
+    <texture name="color1" type="checkerboard"><float name="color0" value="0.9"/></texture></texture>)");
+  ASSERT_THAT(c.messages(), IsEmpty());
+  const SceneTables& t = c.tables();
+  const std::uint32_t diffuse = t.surfaces.at(0).material_front & kMaterialOffsetMask;
+  const auto outer = word_at(t.parameters, diffuse + 3) & kTextureOffsetMask;
+  EXPECT_EQ(texture_kind(word_at(t.parameters, outer + 9)), TextureKind::bitmap);
+  const TextureWord inner = word_at(t.parameters, outer + 13);
+  EXPECT_EQ(texture_kind(inner), TextureKind::checkerboard);
+  EXPECT_EQ(t.parameters.at((inner & kTextureOffsetMask) + 6), 0.9f);
+}
+
+TEST(CheckerboardHost, TexturesInsideAreHeldToWhatTheyCanBe) {
+  EXPECT_THAT(
+      compile_texture(R"(<texture name="reflectance" type="checkerboard">
+                <texture name="color0" type="mesh_attribute"><string name="name" value="vertex_color"/></texture></texture>)")
+          .messages(),
+      ElementsAre("error: 'color0' is a mesh_attribute [a value, or a texture that looks at texture coordinates]"));
+  std::string nested = R"(<float name="color0" value="0.1"/>)";
+  for (int i = 0; i < 8; ++i) nested = R"(<texture name="color0" type="checkerboard">)" + nested + "</texture>";
+  EXPECT_THAT(compile_texture(R"(<texture name="reflectance" type="checkerboard">)" + nested + "</texture>").messages(),
+              ElementsAre("error: textures are nested more than 8 deep [up to 8 inside each other]"));
+}
+
+TEST(Daylight, IsTheTextureInside) {
+  const auto messages = [](const std::string& inside) {
+    const Compiled c = compile_texture(R"(<spectrum name="reflectance" type="d65">)" + inside + "</spectrum>");
+    stored(c, TextureKind::bitmap);
+    return c.messages();
+  };
+  const std::string image = R"(<texture type="bitmap">)" + kFile + "</texture>";
+  EXPECT_THAT(messages(image), IsEmpty());
+  EXPECT_THAT(messages(image + R"(<float name="scale" value="3"/>)"),
+              ElementsAre("note: 'scale' of a d65 with a spectrum or texture inside has no effect, as in Mitsuba's RGB "
+                          "variants [a scale of the emitter, or of the values inside]"));
+  const Compiled plain = compile_texture(
+      R"(<spectrum name="reflectance" type="d65"><spectrum type="uniform"><float name="value" value="0.7"/></spectrum></spectrum>)");
+  EXPECT_THAT(plain.messages(), IsEmpty());
+  EXPECT_EQ(plain.tables().parameters.at(plain.tables().surfaces.at(0).material_front & kMaterialOffsetMask), 0.7f);
 }
 
 TEST(CheckerboardHost, OfColoursIsTheirMeanWhereItStandsForANumber) {
@@ -237,7 +281,7 @@ TEST(CheckerboardHost, OfColoursIsTheirMeanWhereItStandsForANumber) {
   const std::uint32_t mask = c.tables().surfaces.at(0).material_front & kMaterialOffsetMask;
   const std::uint32_t texture = word_at(parameters, mask + 1) & kTextureOffsetMask;
   EXPECT_FLOAT_EQ(parameters.at(texture + 6), 0.3f);
-  for (std::uint32_t k = 9; k < 12; ++k) EXPECT_FLOAT_EQ(parameters.at(texture + k), 0.4f);
+  for (std::uint32_t k = 10; k < 13; ++k) EXPECT_FLOAT_EQ(parameters.at(texture + k), 0.4f);
 }
 
 TEST(CheckerboardHost, ChangesItsColoursForNumbersAsMitsubaDoes) {
@@ -249,7 +293,7 @@ TEST(CheckerboardHost, ChangesItsColoursForNumbersAsMitsubaDoes) {
   const std::uint32_t mask = c.tables().surfaces.at(0).material_front & kMaterialOffsetMask;
   const std::uint32_t texture = word_at(parameters, mask + 1) & kTextureOffsetMask;
   EXPECT_EQ(parameters.at(texture + 6), 0.9f);
-  EXPECT_EQ(parameters.at(texture + 9), 0.1f);
+  EXPECT_EQ(parameters.at(texture + 10), 0.1f);
 }
 
 TEST(CheckerboardHost, IsHeldAgainstTheParametersRange) {

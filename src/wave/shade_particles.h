@@ -49,7 +49,8 @@ NORRSKEN_INLINE CameraConnection connect_point(const SceneView& scene, const Vec
     break;
 #include "lists/camera.def"
 #undef NORRSKEN_CAMERA
-    case CameraKind::count:
+    default:  // the host refuses sensors that nothing connects to
+      c.valid = Mask::none();
       break;
   }
   const FilmSettings& film = scene.film;

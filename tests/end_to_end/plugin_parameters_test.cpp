@@ -62,7 +62,7 @@ class EveryPlugin : public ::testing::TestWithParam<PluginInfo> {
     std::string node = fmt::format(R"(<{0} type="{1}"{2}>{3}</{0}>)", kind, p.name, name, inside);
     const std::string camera = R"(<sensor type="perspective">)";
     std::string scene = kSensor;
-    if (kind == "sensor") scene = node;
+    if (kind == "sensor") scene = p.name == "irradiancemeter" ? "<shape type=\"disk\">" + node + "</shape>" : node;
     if (kind == "film" || kind == "sampler") scene = camera + node + "</sensor>";
     if (kind == "rfilter") scene = camera + R"(<film type="hdrfilm">)" + node + "</film></sensor>";
     scene += kShape + kEmitter;
@@ -100,7 +100,11 @@ class EveryPlugin : public ::testing::TestWithParam<PluginInfo> {
       // A slope on one side alone has no meaning.
       const bool is_other_slope = (without == "alpha_u" && parameter.name == "alpha_v") ||
                                   (without == "alpha_v" && parameter.name == "alpha_u");
-      if (is_other_slope) elements += right(parameter);
+      // Nor has one of these without the other.
+      const bool is_other_half =
+          GetParam().name == "radiancemeter" && ((without == "origin" && parameter.name == "direction") ||
+                                                 (without == "direction" && parameter.name == "origin"));
+      if (is_other_slope || is_other_half) elements += right(parameter);
     }
     return elements;
   }
@@ -284,6 +288,8 @@ std::set<std::string> plugins_of_the_lists() {
 #define NORRSKEN_SHAPE(name) listed.insert("shape " #name);
 #define NORRSKEN_EMITTER(name) listed.insert("emitter " #name);
 #define NORRSKEN_CAMERA(kind, Model) listed.insert("sensor " #kind);
+#define NORRSKEN_METER(kind, Model) listed.insert("sensor " #kind);
+#define NORRSKEN_SENSOR_ADAPTER(kind) listed.insert("sensor " #kind);
 #define NORRSKEN_FILM(name) listed.insert("film " #name);
 #define NORRSKEN_SAMPLER(name) listed.insert("sampler " #name);
 #define NORRSKEN_RFILTER(name) listed.insert("rfilter " #name);
@@ -295,8 +301,10 @@ std::set<std::string> plugins_of_the_lists() {
 #include "lists/emitter.def"
 #include "lists/film.def"
 #include "lists/integrator.def"
+#include "lists/meter.def"
 #include "lists/rfilter.def"
 #include "lists/sampler.def"
+#include "lists/sensor_adapter.def"
 #include "lists/shape.def"
 #include "lists/texture.def"
   return listed;

@@ -28,9 +28,11 @@ inline constexpr int kPerRoom = kPerPicture + 3 * 2;
 inline constexpr int kBsdfCases = 0
 #define NORRSKEN_BSDF_CASE(...) +1
 #define NORRSKEN_BSDF_CASE_ONE_WAY(...) +1
+#define NORRSKEN_BSDF_CASE_NOT_RECIPROCAL(...) +1
 #define NORRSKEN_BSDF_FURNACE(...)
 #include "bsdf/bsdf_test_cases.def"
 #undef NORRSKEN_BSDF_FURNACE
+#undef NORRSKEN_BSDF_CASE_NOT_RECIPROCAL
 #undef NORRSKEN_BSDF_CASE_ONE_WAY
 #undef NORRSKEN_BSDF_CASE
     ;
@@ -38,9 +40,11 @@ inline constexpr int kBsdfCases = 0
 inline constexpr int kBsdfFurnaces = 0
 #define NORRSKEN_BSDF_CASE(...)
 #define NORRSKEN_BSDF_CASE_ONE_WAY(...)
+#define NORRSKEN_BSDF_CASE_NOT_RECIPROCAL(...)
 #define NORRSKEN_BSDF_FURNACE(...) +1
 #include "bsdf/bsdf_test_cases.def"
 #undef NORRSKEN_BSDF_FURNACE
+#undef NORRSKEN_BSDF_CASE_NOT_RECIPROCAL
 #undef NORRSKEN_BSDF_CASE_ONE_WAY
 #undef NORRSKEN_BSDF_CASE
     ;

@@ -216,20 +216,27 @@ Node Materials::make_hair(Definition& definition) {
   const bool has_pigment = p.has("eumelanin") || p.has("pheomelanin");
   const Pattern brown = textures_.number(p, "eumelanin", has_pigment ? 0 : 1.3),
                 red = textures_.number(p, "pheomelanin", 0);
-  textures_.number(p, "eta", 1.55);
-  textures_.number(p, "beta_m", 0.3);
-  const double beta_n = mean_of(textures_.number(p, "beta_n", 0.3).mean());
-  textures_.number(p, "alpha", 2);
-  context_.tell(p.place(), "material 'hair' is not supported", "a diffuse surface of the hair's colour");
-  const auto of_absorption = [beta_n](const glm::dvec3& sigma) { return hair_color(sigma, beta_n); };
-  if (absorbed) color = map(*absorbed, of_absorption);
-  if (!color) {
-    color = map({brown, red}, [&](const std::vector<glm::dvec3>& amount) {
-      return of_absorption(amount[0].r * kEumelanin + amount[1].r * kPheomelanin);
-    });
-  }
-  Node node = make_node("bsdf", "diffuse", p.place());
-  give_color(context_, node, "reflectance", *color, p.place());
+  // Of a texture the mean.
+  const auto number = [&](const char* name, double fallback) {
+    return mean_of(textures_.number(p, name, fallback).mean());
+  };
+  const double eta = number("eta", 1.55), beta_m = number("beta_m", 0.3), beta_n = number("beta_n", 0.3),
+               alpha = number("alpha", 2);
+  const Pattern absorption = absorbed ? *absorbed
+                             : color ? map(*color, [beta_n](const glm::dvec3& c) { return hair_absorption(c, beta_n); })
+                                     : map({brown, red}, [](const std::vector<glm::dvec3>& amount) {
+                                         return amount[0].r * kEumelanin + amount[1].r * kPheomelanin;
+                                       });
+  context_.tell(p.place(), "light that passes through a hair meets the far side of its tube as another hair",
+                "hairs that are somewhat darker and rougher than pbrt's, which are flat");
+  Node node = make_node("bsdf", "hair", p.place());
+  give_color(context_, node, "sigma_a", absorption, p.place());
+  give(node, "longitudinal_roughness", beta_m, p.place());
+  give(node, "azimuthal_roughness", beta_n, p.place());
+  give(node, "scale_tilt", alpha, p.place());
+  give(node, "int_ior", eta, p.place());
+  give(node, "ext_ior", 1.0, p.place());
+  give(node, "along", std::string("u"), p.place());
   return node;
 }
 

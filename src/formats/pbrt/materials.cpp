@@ -99,7 +99,7 @@ Node Materials::make(Definition& definition) {
   if (type == "dielectric") return make_dielectric(definition);
   if (type == "diffusetransmission") return make_diffuse_transmission(definition);
   if (type == "subsurface") return two_sided(make_subsurface(definition), p.place());
-  if (type == "hair") return two_sided(make_hair(definition), p.place());
+  if (type == "hair") return make_hair(definition);
   if (type == "measured") return two_sided(make_measured(definition), p.place());
   if (type == "thindielectric") {
     Node node = make_node("bsdf", "thindielectric", p.place());

@@ -88,9 +88,11 @@ TEST(PbrtMessages, PartsOfAFileHaveTheirOrder) {
 TEST(PbrtMessages, WhatIsUnsupportedIsToldOncePerName) {
   EXPECT_EQ(
       messages_of("WorldBegin\nMakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\nMediumInterface \"fog\" \"\"\n"
-                  "Material \"hair\"\nShape \"sphere\"\nMaterial \"hair\"\nShape \"sphere\""),
+                  "Material \"subsurface\"\nShape \"sphere\"\nMaterial \"subsurface\"\nShape \"sphere\""),
       "media are not supported: 'fog'; instead: empty space\n"
-      "material 'hair' is not supported; instead: a diffuse surface of the hair's colour\n");
+      "material 'subsurface' is not supported; instead: a coat over a surface that scatters as much light back where "
+      "it "
+      "came in\n");
   EXPECT_EQ(
       messages_of("Camera \"spherical\"\nIntegrator \"bdpt\"\nFilm \"rgb\" \"float maxcomponentvalue\" 10\nWorldBegin"),
       "maxcomponentvalue is not supported; instead: samples as they are\n"

@@ -43,10 +43,12 @@ std::vector<std::string> subsurface_names() {
   return names;
 }
 
-glm::dvec3 hair_color(const glm::dvec3& absorption, double azimuthal_roughness) {
+glm::dvec3 hair_absorption(const glm::dvec3& color, double azimuthal_roughness) {
   const double b = azimuthal_roughness;
   const double scale = 5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))));
-  return glm::exp(-scale * glm::sqrt(glm::max(absorption, glm::dvec3(0))));
+  // Black absorbs all: more than that of this colour makes no difference.
+  const glm::dvec3 ratio = glm::log(glm::max(color, glm::dvec3(1e-6))) / scale;
+  return ratio * ratio;
 }
 
 }  // namespace norrsken::pbrt

@@ -17,9 +17,9 @@ glm::dvec3 multiple_scattering_albedo(const glm::dvec3& absorbed, const glm::dve
 std::optional<glm::dvec3> named_subsurface_albedo(std::string_view name);
 std::vector<std::string> subsurface_names();
 
-/// The colour of hair that absorbs so much in a diameter, seen by its multiple scattering: Chiang et al., "A Practical and
-/// Controllable Hair and Fur Model for Production Path Tracing", 2016, equation 9, solved for the colour.
-glm::dvec3 hair_color(const glm::dvec3& absorption, double azimuthal_roughness);
+/// What hair absorbs whose multiple scattering has that colour: Chiang et al., "A Practical and Controllable Hair and Fur
+/// Model for Production Path Tracing", 2016, equation 9.
+glm::dvec3 hair_absorption(const glm::dvec3& color, double azimuthal_roughness);
 /// What a unit of either pigment absorbs (d'Eon et al., "An Energy-Conserving Hair Reflectance Model", 2011).
 inline const glm::dvec3 kEumelanin(0.419, 0.697, 1.37), kPheomelanin(0.187, 0.4, 1.05);
 
