@@ -56,8 +56,8 @@ inline std::uint32_t trace_particles(const SceneView& scene, const WaveJob& job,
     clear(memory.found);
     memory.next_rays.count = 0;
     intersect_closest(scene, false, kAllScattering, memory.rays, memory.slots, memory.found);
-    resolve_materials(scene, hit_number, kByChance, kAllScattering, memory.found.unresolved_hits, memory.slots,
-                      memory.found.hits);
+    resolve_materials(scene, first_dimension_of_hit(hit_number), kByChance, kAllScattering,
+                      memory.found.unresolved_hits, memory.slots, memory.found.hits);
     const ParticleSettings settings{.hit_number = hit_number,
                                     .next_rays = hit_number + 1 < max_depth,
                                     .roulette = hit_number >= static_cast<std::uint32_t>(integrator.rr_depth)};
