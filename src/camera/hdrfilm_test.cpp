@@ -53,12 +53,12 @@ TEST(Hdrfilm, RefusesSizesThatDoNotFitIntoMemory) {
                             {}, options)
         .messages();
   };
-  // Two doubles for three channels of four images, and a count; ten floats and what writing takes.
+  // Two doubles for three channels of two images, and a count; ten floats and what writing takes.
   EXPECT_THAT(messages("sobol", ""),
-              ElementsAre("error: a film of 4096 x 4096 pixels with its image needs 4.11 GiB, and 1.00 GiB of 1.00 GiB "
-                          "are left [up to 4082668 pixels, as by a smaller --size, or a larger --max-memory]"));
+              ElementsAre("error: a film of 4096 x 4096 pixels with its image needs 2.61 GiB, and 1.00 GiB of 1.00 GiB "
+                          "are left [up to 6429591 pixels, as by a smaller --size, or a larger --max-memory]"));
   EXPECT_THAT(messages("independent", ""), ElementsAre(HasSubstr("needs 2.61 GiB")));
-  EXPECT_THAT(messages("sobol", "<integrator type=\"ptracer\"/>"), ElementsAre(HasSubstr("needs 7.11 GiB")));
+  EXPECT_THAT(messages("sobol", "<integrator type=\"ptracer\"/>"), ElementsAre(HasSubstr("needs 5.61 GiB")));
 }
 
 std::string integer(const std::string& name, int value) {

@@ -212,10 +212,10 @@ TEST(MemoryLimit, IsToldWithThePlaceAndTheFigures) {
       std::string(kSmallSensor) + R"(<shape type="ply"><string name="filename" value="a.ply"/></shape>)";
   const Loaded refused = load(elements, {{"a.ply", ply()}}, 60000);
   ASSERT_EQ(refused.compiled.diagnostics.all().size(), 1u);
-  // The film and its image, 64 pixels of 263 bytes, come first; then the file.
+  // The film and its image, 64 pixels of 167 bytes, come first; then the file.
   EXPECT_THAT(refused.compiled.messages(),
-              ElementsAre("error: shape 'ply' does not fit into memory: it needs at least 57.5 KiB, and 42.2 KiB of "
-                          "58.6 KiB are left [up to 42.2 KiB, or a larger --max-memory]"));
+              ElementsAre("error: shape 'ply' does not fit into memory: it needs at least 57.5 KiB, and 48.2 KiB of "
+                          "58.6 KiB are left [up to 48.2 KiB, or a larger --max-memory]"));
   const SourceLocation& place = refused.compiled.diagnostics.all()[0].location;
   EXPECT_EQ(place.file, "scene.xml");
   EXPECT_EQ(place.line, 3);

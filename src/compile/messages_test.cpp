@@ -137,7 +137,7 @@ TEST(Messages, ShapeInAShape) {
             R"(scene.xml:9:5: error: unused shape 'sphere' in shape 'sphere'
     9 |     <shape type="sphere"/>
       |     ^~~~~~
-accepted: bsdf, emitter, medium
+accepted: bsdf, emitter, medium, sensor
 )");
 }
 

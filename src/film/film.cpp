@@ -66,6 +66,7 @@ void FilmError::operator+=(const FilmError& other) {
   lost += other.lost;
   empty += other.empty;
   lost_inverse_samples += other.lost_inverse_samples;
+  of_two_replicates |= other.of_two_replicates;
 }
 
 RelativeError FilmError::relative() const {
@@ -76,8 +77,8 @@ RelativeError FilmError::relative() const {
                                static_cast<double>(empty) * square_sum / static_cast<double>(channels + lost);
   const double value = std::sqrt(squared_error / all) / (mean_sum / all);
   if (!(variance_square_sum > 0)) return {value, value, value};
-  const double factor = error_uncertainty(variance_sum * variance_sum / variance_square_sum);
-  return {value, value / factor, value * factor};
+  const double pixels = variance_sum * variance_sum / variance_square_sum;
+  return {value, value / error_uncertainty(of_two_replicates ? pixels / 2 : pixels), value * error_uncertainty(pixels)};
 }
 
 Film::Film(const FilmSettings& settings, SamplerKind sampler, SceneLayers layers)
@@ -166,8 +167,11 @@ PixelEstimate Film::estimate_samples(std::uint64_t pixel, int channel) const {
   return estimate;
 }
 
+const Neighbors& Film::neighbors() const { return has_two_replicates() ? kNeighborsOfReplicates : kNeighborsOfSamples; }
+
 FilmError Film::error(const FilmRegion& region) const {
   FilmError total;
+  total.of_two_replicates = has_two_replicates();
   for (std::uint32_t y = region.y0; y < region.y0 + region.height; ++y) {
     for (std::uint32_t x = region.x0; x < region.x0 + region.width; ++x) {
       const std::uint64_t pixel = std::uint64_t{y} * width_ + x;

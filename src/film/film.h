@@ -9,6 +9,7 @@
 
 #include "base/zeroed_array.h"
 #include "film/exact_planes.h"
+#include "film/interval.h"
 #include "film/pixel_estimate.h"
 #include "film/sample_set.h"
 #include "film/splats.h"
@@ -42,6 +43,9 @@ struct FilmError {
   /// inverses added up here, and some have none.
   std::uint64_t lost = 0, empty = 0;
   double lost_inverse_samples = 0;
+  /// Variances are spreads of two replicates. A rare bright path that one of them has met makes such a spread too large more
+  /// often than normal noise would: the lower end of the interval reckons with half of the pixels.
+  bool of_two_replicates = false;
 
   /// `samples` are on the film, and those that were dropped are not.
   void add(const PixelEstimate (&channels_of_pixel)[3], std::uint32_t samples, bool some_dropped);
@@ -93,12 +97,16 @@ class Film {
   double feature(Feature feature, std::uint64_t pixel, std::uint32_t samples) const;
 
   FilmError error(const FilmRegion& region) const;
+  /// By which the variances of its pixels are moderated: those of two replicates more than others.
+  const Neighbors& neighbors() const;
 
   /// All of it, while nobody writes to it: see film/film_image.h.
   Image image(bool statistics, std::uint32_t feature_samples) const;
 
  private:
   PixelEstimate estimate_samples(std::uint64_t pixel, int channel) const;
+  /// That variances are told from: not from samples, nor from paths from the lights.
+  bool has_two_replicates() const { return sampler_ != SamplerKind::independent && !splats_.exist(); }
 
   FilmSettings settings_;
   std::uint32_t width_, height_;

@@ -26,7 +26,7 @@ FilmRegion grown(const FilmRegion& region, std::uint32_t margin, std::uint32_t w
 FilmImage::FilmImage(const Film& film, const FilmRegion& region, bool statistics, std::uint32_t feature_samples)
     : film_(film),
       region_(region),
-      needed_(statistics ? grown(region, kNeighborReach, film.width(), film.height()) : region),
+      needed_(statistics ? grown(region, film.neighbors().reach, film.width(), film.height()) : region),
       statistics_(statistics),
       feature_samples_(feature_samples) {
   const FilmSettings& settings = film.settings();
@@ -124,8 +124,9 @@ void FilmImage::crop() {
 
 Image FilmImage::finish() && {
   for (std::size_t c = 0; statistics_ && c < 3; ++c) {
-    image_.channels[interval_[c]].values = confidence_intervals(
-        needed_.width, needed_.height, image_.channels[variance_[c]].values, image_.channels[samples_].values);
+    image_.channels[interval_[c]].values =
+        confidence_intervals(needed_.width, needed_.height, image_.channels[variance_[c]].values,
+                             image_.channels[samples_].values, film_.neighbors());
   }
   for (const auto& [from, to] : copies_) image_.channels[to].values = image_.channels[from].values;
   if (needed_.width != region_.width || needed_.height != region_.height) crop();

@@ -9,8 +9,6 @@
 namespace norrsken {
 namespace {
 
-/// The share of the neighbours' variance in a pixel's.
-constexpr float kNeighborShare = 0.9f;
 /// Of the power mean of their variances: between the mean of variances, which the noisiest rule, and that of deviations.
 constexpr float kExponent = 0.75f;
 
@@ -21,15 +19,15 @@ struct Pool {
   float power = 0, pixels = 0;
 };
 
-/// Each element becomes the sum of those up to kNeighborReach away, of `count` elements that lie `stride` apart.
-void sum_neighbors(std::span<Pool> pools, std::size_t first, std::size_t count, std::size_t stride,
+/// Each element becomes the sum of those up to `reach` away, of `count` elements that lie `stride` apart.
+void sum_neighbors(std::span<Pool> pools, std::size_t first, std::size_t count, std::size_t stride, std::size_t reach,
                    std::vector<Pool>& line) {
   line.resize(count);
   for (std::size_t i = 0; i < count; ++i) line[i] = pools[first + i * stride];
   for (std::size_t i = 0; i < count; ++i) {
     Pool sum;
-    const std::size_t begin = i < kNeighborReach ? 0 : i - kNeighborReach;
-    for (std::size_t j = begin; j < std::min<std::size_t>(i + kNeighborReach + 1, count); ++j) {
+    const std::size_t begin = i < reach ? 0 : i - reach;
+    for (std::size_t j = begin; j < std::min(i + reach + 1, count); ++j) {
       sum.power += line[j].power;
       sum.pixels += line[j].pixels;
     }
@@ -40,21 +38,21 @@ void sum_neighbors(std::span<Pool> pools, std::size_t first, std::size_t count, 
 }  // namespace
 
 std::vector<float> confidence_intervals(std::uint32_t width, std::uint32_t height, std::span<const float> variances,
-                                        std::span<const float> samples) {
+                                        std::span<const float> samples, const Neighbors& neighbors) {
   std::vector<Pool> pools(variances.size());
   for (std::size_t i = 0; i < pools.size(); ++i) {
     if (variances[i] >= 0) pools[i] = {std::pow(variances[i] * samples[i], kExponent), 1};
   }
   std::vector<Pool> line;
-  for (std::size_t y = 0; y < height; ++y) sum_neighbors(pools, y * width, width, 1, line);
-  for (std::size_t x = 0; x < width; ++x) sum_neighbors(pools, x, height, width, line);
+  for (std::size_t y = 0; y < height; ++y) sum_neighbors(pools, y * width, width, 1, neighbors.reach, line);
+  for (std::size_t x = 0; x < width; ++x) sum_neighbors(pools, x, height, width, neighbors.reach, line);
 
   std::vector<float> intervals(variances.size(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < intervals.size(); ++i) {
     if (!(pools[i].pixels > 0) || !(samples[i] > 0)) continue;
     const float around = std::pow(pools[i].power / pools[i].pixels, 1 / kExponent) / samples[i];
     const float own = variances[i] >= 0 ? variances[i] : around;
-    intervals[i] = kNormal * std::sqrt(own + kNeighborShare * (around - own));
+    intervals[i] = kNormal * std::sqrt(own + neighbors.share * (around - own));
   }
   return intervals;
 }

@@ -16,14 +16,20 @@
 
 namespace norrsken {
 
-/// How far those neighbours are away at most, in pixels.
-inline constexpr std::uint32_t kNeighborReach = 7;
+/// The neighbours by which a variance is moderated.
+struct Neighbors {
+  std::uint32_t reach;  ///< how far they are away at most, in pixels
+  float share;          ///< of their variance in a pixel's
+};
+/// Where a pixel has two replicates, its own variance says little.
+inline constexpr Neighbors kNeighborsOfReplicates{.reach = 7, .share = 0.9f};
+inline constexpr Neighbors kNeighborsOfSamples{.reach = 5, .share = 0.85f};
 
 /// Of one channel, row by row: half the width of each pixel's interval; NaN where not even the neighbours' variances are
 /// known. `variances` are those of the pixels' means, NaN where unknown, and `samples` how many are in each, by which
 /// variances of means compare.
 std::vector<float> confidence_intervals(std::uint32_t width, std::uint32_t height, std::span<const float> variances,
-                                        std::span<const float> samples);
+                                        std::span<const float> samples, const Neighbors& neighbors);
 
 /// Of the error of a whole image, which is estimated as the root of its pixels' added up variances: how many times too small
 /// or too large that may be, with a probability of 95 % or more that it is no worse. `pixels` is the square of the sum of

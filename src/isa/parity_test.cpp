@@ -290,13 +290,13 @@ TEST(PlainScenes, AreShadedLikeAnyOtherWhateverTheModel) {
   const auto next_place = [&] {
     const int column = placed % 4, row = placed / 4;
     ++placed;
-    return "x=\"" + std::to_string(1.8 * column - 2.7) + "\" y=\"" + std::to_string(1.8 * row - 1.8) + "\" z=\"0\"";
+    return "x=\"" + std::to_string(1.8 * column - 2.7) + "\" y=\"" + std::to_string(1.8 * row - 2.7) + "\" z=\"0\"";
   };
 #define NORRSKEN_BSDF(kind, Model) \
   xml += R"(<shape type="sphere"><point name="center" )" + next_place() + R"(/><bsdf type=")" #kind R"("/></shape>)";
 #include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
-  ASSERT_LE(placed, 12);
+  ASSERT_LE(placed, 16);
   const TemporaryFolder folder;
   const auto spheres = view_scene(folder.write("spheres.xml", xml + "</scene>"), AccelKind::planes);
   ASSERT_NE(spheres, nullptr);

@@ -220,7 +220,7 @@ TEST(ShapeHost, SpheresFollowTriangles) {
 
 TEST(ShapeHost, RefusesWhatDoesNotBelongIntoAShape) {
   EXPECT_THAT(compile_shape(sphere(sphere(""))).messages(),
-              ElementsAre("error: unused shape 'sphere' in shape 'sphere' [bsdf, emitter, medium]"));
+              ElementsAre("error: unused shape 'sphere' in shape 'sphere' [bsdf, emitter, medium, sensor]"));
   EXPECT_THAT(compile_shape(sphere(R"(<medium type="homogeneous" name="inside"/>)")).messages(),
               ElementsAre("error: a medium of shape 'sphere' is named 'inside' ['interior' or 'exterior']"));
   EXPECT_THAT(compile_shape(sphere(R"(<bsdf type="diffuse"/><bsdf type="diffuse"/>)")).messages(),

@@ -226,7 +226,7 @@ TEST(BitmapTexture, GradientIsTheInterpolantsDerivative) {
 }
 
 TEST(CheckerboardTexture, ChangesAtHalves) {
-  const std::vector<float> parameters = {1, 0, 0, 0, 2, 0, 0.1f, 0.2f, 0.3f, 0.9f, 0.8f, 0.7f};
+  const std::vector<float> parameters = {1, 0, 0, 0, 2, 0, 0.1f, 0.2f, 0.3f, 0, 0.9f, 0.8f, 0.7f, 0};
   const std::vector<Place> places = {{0.1f, 0.05f}, {0.6f, 0.05f}, {0.1f, 0.3f},
                                      {0.6f, 0.3f},  {0.5f, 0.05f}, {-0.1f, 0.05f}};
   const float wanted[] = {0.1f, 0.9f, 0.9f, 0.1f, 0.1f, 0.9f};

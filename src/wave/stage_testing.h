@@ -69,7 +69,7 @@ inline stored::Ray ray_along(const Triple& origin, const Triple& direction) {
 /// A wave's memory, its slots black.
 class StageMemory {
  public:
-  explicit StageMemory(std::uint32_t slots = 1) : arena_(slots, true) {
+  explicit StageMemory(std::uint32_t slots = 1) : arena_(slots, {.connections = true}) {
     memory.slots.count = slots;
     for (std::uint32_t s = 0; s < slots; ++s) {
       stored::Slot slot{};
