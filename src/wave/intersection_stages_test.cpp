@@ -105,7 +105,12 @@ TEST(IntersectClosest, KeepsTheKindsThatAreWanted) {
 }
 
 stored::ShadowRay shadow_ray(std::uint32_t slot, const Triple& origin, float t_max) {
-  return {.origin = origin, .direction = {0, 0, 1}, .t_max = t_max, .contribution = {1, 2, 4}, .slot = slot};
+  return {.origin = origin,
+          .direction = {0, 0, 1},
+          .t_max = t_max,
+          .contribution = {1, 2, 4},
+          .slot = slot,
+          .medium = kNone};
 }
 
 TEST(IntersectShadow, AddsWhatIsNotHidden) {

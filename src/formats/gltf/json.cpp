@@ -188,7 +188,7 @@ std::string pointer_to(const Json& root, const Json& value) {
       if (holds(at->items[i])) next = &at->items[i], pointer += fmt::format("/{}", i);
     }
     for (const auto& [name, member] : at->members) {
-      if (!next && holds(member)) next = &member, pointer += "/" + escaped(name);
+      if (!next && holds(member)) next = &member, pointer.append("/").append(escaped(name));
     }
     if (!next) break;
     at = next;
