@@ -36,7 +36,7 @@ FAMILIES = [
     ("BSDFs", "bsdf", "bsdf", ["bsdf", "bsdf_resolved", "bsdf_adapter"], None),
     ("Textures", "texture", "texture", ["texture"], None),
     ("Media", "medium", "medium", ["medium"], None),
-    ("Phase functions", "medium", "phase", ["phase"], None),
+    ("Phase functions", "medium", "phase", ["phase", "phase_adapter"], None),
     ("Volumes", "medium", "volume", ["volume"], None),
     ("Emitters", "light", "emitter", ["emitter"], "light_host.h"),
     ("Shapes", "shape", "shape", ["shape"], "mesh_host.h"),

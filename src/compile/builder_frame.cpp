@@ -250,6 +250,9 @@ void Builder::compile_camera(Parameters& sensor, CompileSensor* compile) {
   tables().meter.clear();
   tables().camera = compile(sensor, sensors, tables().film);
   tables().camera.medium = medium_around(sensor);
+  if (tables().camera.medium != kNone) {
+    for (CameraRecord& camera : tables().batch) camera.medium = tables().camera.medium;
+  }
   if (tables().integrator.from_lights && !is_camera(tables().camera.kind)) {
     diagnostics_.error(sensor.node().plugin_location,
                        fmt::format("nothing that begins at the lights finds sensor {}, as paths of integrator {} would",

@@ -78,7 +78,8 @@ RelativeError FilmError::relative() const {
   const double value = std::sqrt(squared_error / all) / (mean_sum / all);
   if (!(variance_square_sum > 0)) return {value, value, value};
   const double pixels = variance_sum * variance_sum / variance_square_sum;
-  return {value, value / error_uncertainty(of_two_replicates ? pixels / 2 : pixels), value * error_uncertainty(pixels)};
+  const double factor = error_uncertainty(of_two_replicates ? pixels / 2 : pixels);
+  return {value, value / factor, value * factor};
 }
 
 Film::Film(const FilmSettings& settings, SamplerKind sampler, SceneLayers layers)

@@ -43,8 +43,8 @@ struct FilmError {
   /// inverses added up here, and some have none.
   std::uint64_t lost = 0, empty = 0;
   double lost_inverse_samples = 0;
-  /// Variances are spreads of two replicates. A rare bright path that one of them has met makes such a spread too large more
-  /// often than normal noise would: the lower end of the interval reckons with half of the pixels.
+  /// Variances are spreads of two replicates. Where rare bright paths are most of the noise such spreads have longer tails
+  /// than those of normal noise: the interval reckons with half of the pixels.
   bool of_two_replicates = false;
 
   /// `samples` are on the film, and those that were dropped are not.

@@ -123,7 +123,8 @@ class Writer {
 
   /// The id that others refer to a node by; empty if nobody does.
   std::string id_of(const Node& node) {
-    if (uses_[&node] < 2 && node.id.empty()) return {};
+    // Mitsuba gives an emitter to one shape alone.
+    if (node.kind == "emitter" ? uses_[&node] > 1 || node.id.empty() : uses_[&node] < 2 && node.id.empty()) return {};
     std::string& id = id_of_node_[&node];
     if (!id.empty()) return id;
     id = node.id;
@@ -185,7 +186,24 @@ class Writer {
 
   // --- values ---
 
+  /// Mitsuba has one mode for both axes.
+  void write_wrap_mode(const Node& bitmap, int depth) {
+    const auto mode = [&](const char* name) {
+      const Property* property = find(bitmap, name);
+      const auto* text = property ? std::get_if<std::string>(&property->value) : nullptr;
+      return text ? *text : std::string("repeat");
+    };
+    const std::string u = mode("wrap_mode_u"), v = mode("wrap_mode_v");
+    if (u != v) tell("Mitsuba has no bitmap that is continued in two ways", "both axes as 'repeat'");
+    line(depth, fmt::format("<string name=\"wrap_mode\" value=\"{}\"/>", u == v ? u : "repeat"));
+  }
+
   void write_property(const Node& node, const Property& property, int depth) {
+    if (node.plugin == "bitmap" && property.name == "wrap_mode_u") return write_wrap_mode(node, depth);
+    if (node.plugin == "bitmap" && property.name == "wrap_mode_v") {
+      if (!has(node, "wrap_mode_u")) write_wrap_mode(node, depth);
+      return;
+    }
     const std::string& name = property.name;
     const auto element = [&](const char* type, const std::string& value) {
       line(depth, fmt::format("<{} name=\"{}\" value=\"{}\"/>", type, escaped(name), escaped(value)));

@@ -1,7 +1,11 @@
 // homogeneous: a medium that is the same everywhere. It fills what the shapes that name it enclose.
 //
 // The light that passes it is known in closed form, so shadow rays have no noise of it; but with an `sggx`, which differs by
-// place and direction.
+// place and direction. Where nothing closes the medium it ends where lights around the scene stand, twice the radius of the
+// scene's sphere away.
+//
+// Rays start a little beyond the surface that they leave (64 ulps of its coordinates), and what lies between is not paid for:
+// where that is not little against a mean free path, very dense media and those far from the origin come out too dark.
 #include <fmt/core.h>
 
 #include <glm/gtc/matrix_transform.hpp>

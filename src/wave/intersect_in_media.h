@@ -87,7 +87,10 @@ inline void intersect_in_media(const SceneView& scene, const RoundSettings& sett
       }
       const Mask homogeneous = in_medium & !in_grid;
       if (any(homogeneous)) {
-        const Flight flight = fly(scene, hit.ray.medium, hit.ray, hit.t, !settings.last, u, homogeneous);
+        // A medium that nothing closes goes as far as lights around the scene are away (light/constant.h).
+        const Float to_lights_around = max(Float(2.0f * scene.radius) - hit.ray.travelled, 0.0f);
+        const Float distance = select(missed, to_lights_around, hit.t);
+        const Flight flight = fly(scene, hit.ray.medium, hit.ray, distance, !settings.last, u, homogeneous);
         hit.ray.throughput = select(homogeneous, flight.throughput, hit.ray.throughput);
         if (any(flight.scattered)) {
           Ray stopped = hit.ray;

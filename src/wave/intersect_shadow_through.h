@@ -46,7 +46,18 @@ NORRSKEN_INLINE void send_on(const SceneView& scene, const ShadowRay& ray, WaveM
   if (any(on)) push(scene, memory.media.next_shadow_rays, ray, on);
 }
 
-inline void intersect_shadow_round(const SceneView& scene, std::uint32_t dimension, WaveMemory& memory) {
+/// What holds for all shadow rays of one round.
+struct ShadowRound {
+  std::uint32_t dimension;     ///< the first
+  std::uint32_t light_sample;  ///< of the emitter_samples of a vertex, each of which draws numbers of its own
+
+  NORRSKEN_INLINE SampleKey key(const SceneView& scene, const Slots& slots, UInt slot, Mask active) const {
+    const auto n = static_cast<std::uint32_t>(scene.integrator.emitter_samples);
+    return Sampler{scene.sampler.kind}.repetition(load_sample_key(slots, slot, active), light_sample, n);
+  }
+};
+
+inline void intersect_shadow_round(const SceneView& scene, const ShadowRound& round, WaveMemory& memory) {
   const Sampler sampler{scene.sampler.kind};
   const ShadowRays& rays = memory.shadow_rays;
   ClosestOfQueue hits(scene, false, RayFields(rays), rays.count);
@@ -58,7 +69,7 @@ inline void intersect_shadow_round(const SceneView& scene, std::uint32_t dimensi
     const Vec3f from = ray.origin;
     const UInt medium = ray.medium;
     const Float length = min(closest.t, ray.t_max);
-    const SampleKey key = load_sample_key(memory.slots, ray.slot, active);
+    const SampleKey key = round.key(scene, memory.slots, ray.slot, active);
     if (any(met)) {
       Hit hit;
       hit.ray = Ray{.origin = ray.origin,
@@ -77,7 +88,7 @@ inline void intersect_shadow_round(const SceneView& scene, std::uint32_t dimensi
       active &= (!met) | may_pass;
       if (any(may_pass)) {
         const SurfacePoint surface = make_surface_point(scene, hit, may_pass);
-        const Float chance = sampler.sample_1d(key, dimension + hit_dimension::kMaterial);
+        const Float chance = sampler.sample_1d(key, round.dimension + hit_dimension::kMaterial);
         const Color share = share_straight_on(scene, hit, copied(surface), chance, may_pass);
         const Ray passed = behind(scene, hit, surface, may_pass);
         ray.contribution = select(may_pass, ray.contribution * share, ray.contribution);
@@ -96,10 +107,10 @@ inline void intersect_shadow_round(const SceneView& scene, std::uint32_t dimensi
       ray.contribution = select(homogeneous, ray.contribution * transmittance(sigma_t, length), ray.contribution);
     }
     if (any(in_grid)) {
-      ray.origin = select(met, ray.origin, fma(ray.direction, length, from));
-      const Float u = sampler.sample_1d(key, dimension + hit_dimension::kDistance);
+      const Float u = sampler.sample_1d(key, round.dimension + hit_dimension::kDistance);
       push(scene, memory.media.shadow_tracks,
            ShadowTrack{.ray = ray,
+                       .from = from,
                        .medium = medium,
                        .length = length,
                        .t = 0.0f,
@@ -116,15 +127,14 @@ inline void intersect_shadow_round(const SceneView& scene, std::uint32_t dimensi
 
 /// Ratio tracking (Novak, Selle, Jarosz, "Residual Ratio Tracking for Estimating Attenuation in Participating Media", 2014),
 /// with roulette where little is left.
-inline void track_shadows(const SceneView& scene, std::uint32_t dimension, WaveMemory& memory) {
+inline void track_shadows(const SceneView& scene, const ShadowRound& round, WaveMemory& memory) {
   MediaQueues& media = memory.media;
   for (std::uint32_t i = 0; i < media.shadow_tracks.count; i += kLanes) {
     Mask active = first_lanes(media.shadow_tracks.count - i);
     ShadowTrack track = load<ShadowTrack>(scene, media.shadow_tracks, i);
     ShadowRay& ray = track.ray;
-    const UInt key = walk_key(load_sample_key(memory.slots, ray.slot, active), dimension);
-    const Vec3f from = fma(ray.direction, -track.length, ray.origin);
-    const MajorantGrid grid(scene, track.medium, from, ray.direction, active);
+    const UInt key = walk_key(round.key(scene, memory.slots, ray.slot, active), round.dimension);
+    const MajorantGrid grid(scene, track.medium, track.from, ray.direction, active);
     Walk walk{track.t, track.depth, track.cell, track.drawn};
     Mask ended = Mask::none();
     for (int step = 0; step < kStepsAtATime && any(active); ++step) {
@@ -132,7 +142,7 @@ inline void track_shadows(const SceneView& scene, std::uint32_t dimension, WaveM
       ended |= s.ended;
       active &= !s.ended;
       if (none(s.collided)) continue;
-      const Vec3f position = fma(ray.direction, walk.t, from);
+      const Vec3f position = fma(ray.direction, walk.t, track.from);
       const Color sigma = extinction_at(scene, track.medium, position, ray.direction, s.majorant, s.collided);
       const Color passes = (grey(s.majorant) - sigma) * (1.0f / s.majorant);
       ray.contribution = select(s.collided, ray.contribution * passes, ray.contribution);
@@ -153,15 +163,17 @@ inline void track_shadows(const SceneView& scene, std::uint32_t dimension, WaveM
   }
 }
 
-inline void intersect_shadow_through(const SceneView& scene, std::uint32_t hit_number, WaveMemory& memory) {
+/// The rays are those of one light sample of each vertex.
+inline void intersect_shadow_through(const SceneView& scene, std::uint32_t hit_number, std::uint32_t light_sample,
+                                     WaveMemory& memory) {
   MediaQueues& media = memory.media;
-  for (std::uint32_t round = 0; memory.shadow_rays.count > 0 && round < kMostRounds; ++round) {
-    const std::uint32_t dimension = first_dimension_of_round(hit_number, kShadowRounds + round);
+  for (std::uint32_t i = 0; memory.shadow_rays.count > 0 && i < kMostRounds; ++i) {
+    const ShadowRound round{first_dimension_of_round(hit_number, kShadowRounds + i), light_sample};
     media.next_shadow_rays.count = media.shadow_tracks.count = 0;
-    intersect_shadow_round(scene, dimension, memory);
+    intersect_shadow_round(scene, round, memory);
     while (media.shadow_tracks.count > 0) {
       media.next_shadow_tracks.count = 0;
-      track_shadows(scene, dimension, memory);
+      track_shadows(scene, round, memory);
       std::swap(media.shadow_tracks, media.next_shadow_tracks);
     }
     std::swap(memory.shadow_rays, media.next_shadow_rays);

@@ -43,7 +43,8 @@ template <class Model>
 inline void shade_kind(const SceneView& scene, ShadeSettings settings, const Hits& hits, WaveMemory& memory,
                        WaveCounts& counts) {
   const auto light_samples = settings.lights ? static_cast<std::uint32_t>(scene.integrator.emitter_samples) : 0u;
-  const std::uint32_t most = memory.shadow_rays.capacity() / kMaxLanes;
+  // Through media, those of each light sample draw numbers of their own.
+  const std::uint32_t most = scene.volumetric ? 1 : memory.shadow_rays.capacity() / kMaxLanes;
   const std::uint32_t per_pass = light_samples < most ? light_samples : most;
   const std::uint32_t portion = memory.shadow_rays.capacity() / (per_pass > 0 ? per_pass : 1) / kMaxLanes * kMaxLanes;
   const bool next_rays = settings.next_rays;
@@ -58,7 +59,7 @@ inline void shade_kind(const SceneView& scene, ShadeSettings settings, const Hit
       counts.shadow_rays += memory.shadow_rays.count;
       memory.tell(WaveEvent::shadow_rays);
       if (scene.volumetric) {
-        intersect_shadow_through(scene, settings.hit_number, memory);
+        intersect_shadow_through(scene, settings.hit_number, first, memory);
       } else {
         intersect_shadow(scene, memory.shadow_rays, memory.slots);
       }

@@ -76,7 +76,7 @@ inline void shade_phase(const SceneView& scene, ShadeSettings settings, const Sc
       memory.shadow_rays.count = 0;
       shade_scatters<Phase>(scene, settings, scatters, begin, end, memory.slots, memory.shadow_rays, memory.next_rays);
       counts.shadow_rays += memory.shadow_rays.count;
-      intersect_shadow_through(scene, settings.hit_number, memory);
+      intersect_shadow_through(scene, settings.hit_number, sample, memory);
     }
   }
 }

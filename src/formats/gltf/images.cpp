@@ -104,6 +104,12 @@ std::shared_ptr<const ImageFile> Images::read(const Json& json) {
   return result = file;
 }
 
+bool Images::is_nearest(const TextureUse& use) {
+  constexpr std::size_t kNearest = 9728;
+  const Json* sampler = asset_.referred(*use.texture, "sampler", "samplers");
+  return sampler && asset_.whole(*sampler, "magFilter", 0) == kNearest;
+}
+
 Node Images::node_of(const TextureUse& use, std::shared_ptr<const Image> image) {
   const SourceLocation place = asset_.place(*use.info);
   Node node = make_node("texture", "bitmap", place);
@@ -117,9 +123,8 @@ Node Images::node_of(const TextureUse& use, std::shared_ptr<const Image> image) 
       give(node, "wrap_mode_u", u, place);
       give(node, "wrap_mode_v", v, place);
     }
-    constexpr std::size_t kNearest = 9728;
-    if (asset_.whole(*sampler, "magFilter", 0) == kNearest) give(node, "filter_type", std::string("nearest"), place);
   }
+  if (is_nearest(use)) give(node, "filter_type", std::string("nearest"), place);
   if (use.is_moved) give(node, "to_uv", use.to_uv, place);
   return node;
 }
@@ -147,12 +152,14 @@ std::shared_ptr<const Node> Images::bitmap(const TextureUse& use, const std::str
 }
 
 std::shared_ptr<const Node> Images::cut_out(const TextureUse& use, double factor, double cutoff) {
-  std::shared_ptr<const Image>& known = images_[{use.image, fmt::format("cut {} {}", factor, cutoff)}];
+  // Texels that are not blended need no finer ones for their edge.
+  const bool nearest = is_nearest(use);
+  std::shared_ptr<const Image>& known = images_[{use.image, fmt::format("cut {} {} {}", factor, cutoff, nearest)}];
   if (!known) {
     const auto file = read(*use.image);
     if (!file) return nullptr;
     const int width = file->image.width, height = file->image.height;
-    const int finer = std::clamp(kFinest / std::max(width, height), 1, 4);
+    const int finer = nearest ? 1 : std::clamp(kFinest / std::max(width, height), 1, 4);
     Image image;
     image.width = width * finer, image.height = height * finer;
     asset_.memory.grow(sizeof(float) * pixels_of(image));

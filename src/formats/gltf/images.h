@@ -48,6 +48,7 @@ class Images {
 
  private:
   std::shared_ptr<const ImageFile> read(const Json& image);
+  bool is_nearest(const TextureUse& use);
   Node node_of(const TextureUse& use, std::shared_ptr<const Image> image);
 
   Asset& asset_;
