@@ -123,11 +123,11 @@ TEST_F(Media, AFurnaceStaysWhite) {
 TEST_F(Media, AConstantGridIsHomogeneous) {
   const std::string rest = number("albedo", 0.8) + number("scale", 0.5);
   const std::string scene = volpath(-1) + parallel_camera() + kBehind;
-  const Rgb expected = mean(scene + cube(interior(number("sigma_t", 3) + rest)), 2048);
+  const Rgb expected = mean(scene + cube(interior(number("sigma_t", 3) + rest)), 8192);
   for (const int n : {1, 20}) {
     write_grid(n, std::vector<float>(static_cast<std::size_t>(n) * n * n, 3.0f));
     for (const std::string filter : {"trilinear", "nearest"})
-      expect_near(mean(scene + cube(interior(grid(text("filter_type", filter)) + rest, "heterogeneous")), 2048),
+      expect_near(mean(scene + cube(interior(grid(text("filter_type", filter)) + rest, "heterogeneous")), 8192),
                   expected, 5e-3);
   }
 }
