@@ -144,7 +144,9 @@ TEST_P(ManyLights, AreChosenForWhatASurfaceTakes) {
         if (scene_.view.light_leaves[picked.light.v] == kNone) continue;
         const glm::dvec3 to_light = doubles(scene_.view.lights[picked.light.v].origin) - p;
         if (glm::dot(to_light, doubles(receivers[1].normal)) < -0.5) ++below[k];
-        if (i < 300) EXPECT_NEAR(double{picked.weight_prob.v} / prob(picked.light.v, p), 1, 1e-5);
+        if (i < 300) {
+          EXPECT_NEAR(double{picked.weight_prob.v} / prob(picked.light.v, p), 1, 1e-5);
+        }
       }
     }
     EXPECT_NEAR(shares[0], 1, 1e-6);
