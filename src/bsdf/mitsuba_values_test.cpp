@@ -86,7 +86,9 @@ TEST(MitsubasValues, AreOurs) {
     EXPECT_NEAR(double(value.g.v), v.value[1], tolerance * v.value[1]);
     EXPECT_NEAR(double(value.b.v), v.value[2], tolerance * v.value[2]);
     // Of principled the lobes are sampled by what they send, in Mitsuba in fixed shares.
-    if (plugin != "principled") EXPECT_NEAR(double(sides.front->pdf_sa(wo, wi)), v.pdf_sa, 4e-3 * v.pdf_sa);
+    if (plugin != "principled") {
+      EXPECT_NEAR(double(sides.front->pdf_sa(wo, wi)), v.pdf_sa, 4e-3 * v.pdf_sa);
+    }
   }
 }
 
