@@ -292,8 +292,10 @@ TEST(PlainScenes, AreShadedLikeAnyOtherWhateverTheModel) {
     ++placed;
     return "x=\"" + std::to_string(1.8 * column - 2.7) + "\" y=\"" + std::to_string(1.8 * row - 2.7) + "\" z=\"0\"";
   };
-#define NORRSKEN_BSDF(kind, Model) \
-  xml += R"(<shape type="sphere"><point name="center" )" + next_place() + R"(/><bsdf type=")" #kind R"("/></shape>)";
+  // Hair wants tangents, by which no scene is plain.
+#define NORRSKEN_BSDF(kind, Model)       \
+  if (std::string_view(#kind) != "hair") \
+    xml += R"(<shape type="sphere"><point name="center" )" + next_place() + R"(/><bsdf type=")" #kind R"("/></shape>)";
 #include "lists/bsdf.def"
 #undef NORRSKEN_BSDF
   ASSERT_LE(placed, 16);

@@ -75,7 +75,7 @@ class ReportedVariance : public ::testing::TestWithParam<const char*> {};
 TEST_P(ReportedVariance, IsThatOfImagesOfDifferentSeeds) {
   statistics::StatisticalTest test;
   EXPECT_TRUE(reports_its_variance(test, 0.06, load_room({.sampler = GetParam()}),
-                                   {.samples_per_pixel = 16, .seed = 5000}, 32, GetParam()));
+                                   {.samples_per_pixel = 16, .seed = 5000}, 64, GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(, ReportedVariance, ::testing::Values("independent", "sobol"), kParamName);

@@ -27,7 +27,7 @@ TEST_P(FilterError, IsThatOfImagesOfDifferentSeeds) {
       <translate y="0.5" z="0.6"/></transform><bsdf type="diffuse"/>
       <emitter type="area"><rgb name="radiance" value="2"/></emitter></shape>)");
   statistics::StatisticalTest test;
-  EXPECT_TRUE(reports_its_variance(test, 0.08, scene, {.samples_per_pixel = 32, .seed = 700}, 160, GetParam().name));
+  EXPECT_TRUE(reports_its_variance(test, 0.08, scene, {.samples_per_pixel = 32, .seed = 700}, 256, GetParam().name));
 }
 
 /// A lamp's edge along a column of pixels shows the filter's integral, which goes below 0 and beyond 1.

@@ -294,6 +294,10 @@ std::set<std::string> plugins_of_the_lists() {
 #define NORRSKEN_SAMPLER(name) listed.insert("sampler " #name);
 #define NORRSKEN_RFILTER(name) listed.insert("rfilter " #name);
 #define NORRSKEN_INTEGRATOR(name) listed.insert("integrator " #name);
+#define NORRSKEN_MEDIUM(name) listed.insert("medium " #name);
+#define NORRSKEN_PHASE(kind, Model) listed.insert("phase " #kind);
+#define NORRSKEN_PHASE_ADAPTER(name) listed.insert("phase " #name);
+#define NORRSKEN_VOLUME(name) listed.insert("volume " #name);
 #include "lists/bsdf.def"
 #include "lists/bsdf_adapter.def"
 #include "lists/bsdf_resolved.def"
@@ -301,12 +305,16 @@ std::set<std::string> plugins_of_the_lists() {
 #include "lists/emitter.def"
 #include "lists/film.def"
 #include "lists/integrator.def"
+#include "lists/medium.def"
 #include "lists/meter.def"
+#include "lists/phase.def"
+#include "lists/phase_adapter.def"
 #include "lists/rfilter.def"
 #include "lists/sampler.def"
 #include "lists/sensor_adapter.def"
 #include "lists/shape.def"
 #include "lists/texture.def"
+#include "lists/volume.def"
   return listed;
 }
 

@@ -243,7 +243,7 @@ TEST(BuiltScene, WhatIsWrongIsSaid) {
             "the mesh has two attributes 'vertex_glow' [one of each name]");
   Node twice("shape", "sphere");
   twice.properties = {{"radius", 1.0}, {"radius", 2.0}};
-  EXPECT_EQ(error(with(twice)), "'radius' is given twice to sphere [one value of each name]");
+  EXPECT_EQ(error(with(twice)), "'radius' is given twice to shape 'sphere' [one value of each name]");
   EXPECT_EQ(error(with(Node("shape", "mesh").set("positions", FloatArray{0, 0, 0}))),
             "shape 'mesh' needs a parameter 'triangles' [<string name=\"triangles\" value=\"0 1 2\"/>]");
   EXPECT_EQ(error(with(Node("shape", "sphere").set("radius", std::numeric_limits<double>::quiet_NaN()))),
