@@ -1,6 +1,9 @@
 // Every instruction set against the one-lane kernels: each stage alone on made-up queues of every tail length, and
 // whole waves. Hits on an edge may fall to either side where rounding differs, so a share of records may differ; it is
 // bounded, and everything else must agree closely.
+#include <string>
+#include <string_view>
+
 #include "isa/kernel_testing.h"
 #include "tests/temporary_folder.h"
 #include "wave/plain_scene.h"

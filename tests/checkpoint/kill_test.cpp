@@ -127,7 +127,9 @@ TEST_F(KillTest, AFullDiskCostsTheCheckpointAlone) {
 
   const fs::path small = folder_ / "small";
   fs::create_directory(small);
-  if (mount("norrsken_test", small.c_str(), "tmpfs", 0, "size=1m") != 0) GTEST_SKIP() << "no tmpfs may be mounted here";
+  const std::string room = "size=" + std::to_string(size * 3 / 2);
+  if (mount("norrsken_test", small.c_str(), "tmpfs", 0, room.c_str()) != 0)
+    GTEST_SKIP() << "no tmpfs may be mounted here";
   std::vector<std::string> once = command("", 100);
   once.insert(once.end(), {"--checkpoint", "small/room.ckpt"});
   ASSERT_EQ(run(once).status, 0);
