@@ -1,8 +1,6 @@
 // glTF, text or binary, compiled up to the tables that are rendered. What it may name lies beside it in memory.
-#include "compile/compile.h"
 #include "formats/gltf/read_gltf.h"
-#include "fuzz/fuzz.h"
-#include "scene/memory_files.h"
+#include "fuzz/check_scene.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace norrsken;
@@ -17,17 +15,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const MemoryFiles files({{kScene, std::string(text)},
                            {"b.bin", buffer},
                            {"a.ppm", "P3 2 2 255 255 0 0 0 255 0 0 0 255 255 255 255\n"}});
-  const MemoryScope scope(std::make_shared<MemoryBudget>(std::uint64_t{256} << 20));
-  Diagnostics diagnostics;
-  try {
-    const auto description = read_gltf(kScene, files, {{"time", "0.5"}}, diagnostics);
-    fuzz::require(description.has_value() != diagnostics.has_errors(), "a description or errors");
-    if (!description) return 0;
-    const auto scene = compile(*description, files, {}, diagnostics);
-    diagnostics.sort();
-    fuzz::check_complaints(scene.has_value(), diagnostics);
-  } catch (const MemoryExceeded&) {
-    // Its reader's caller tells of it.
-  }
+  fuzz::check_scene(files, [&](Diagnostics& diagnostics) { return read_gltf(kScene, files, {{"time", "0.5"}}, diagnostics); });
   return 0;
 }

@@ -1,8 +1,6 @@
 // Scenes in pbrt's language, compiled up to the tables that are rendered. What they may name lies beside them in memory.
-#include "compile/compile.h"
 #include "formats/pbrt/read_pbrt.h"
-#include "fuzz/fuzz.h"
-#include "scene/memory_files.h"
+#include "fuzz/check_scene.h"
 
 namespace {
 
@@ -30,18 +28,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                            {"a.ppm", "P3 2 2 255 255 0 0 0 255 0 0 0 255 255 255 255\n"},
                            {"a.spd", "400 0.1\n700 0.5\n"},
                            {"lens.dat", "100 0 1.5 20\n0 5 0 10\n-100 90 1 20\n"}});
-  // Of a scene that asks for more, that is what is told.
-  const MemoryScope scope(std::make_shared<MemoryBudget>(std::uint64_t{256} << 20));
-  Diagnostics diagnostics;
-  try {
-    const auto description = read_pbrt(kScene, files, diagnostics);
-    fuzz::require(description.has_value() != diagnostics.has_errors(), "a description or errors");
-    if (!description) return 0;
-    const auto scene = compile(*description, files, {}, diagnostics);
-    diagnostics.sort();
-    fuzz::check_complaints(scene.has_value(), diagnostics);
-  } catch (const MemoryExceeded&) {
-    // Its reader's caller tells of it.
-  }
+  fuzz::check_scene(files, [&](Diagnostics& diagnostics) { return read_pbrt(kScene, files, diagnostics); });
   return 0;
 }

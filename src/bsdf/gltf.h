@@ -7,7 +7,7 @@
 // Departures  what the coat takes from what is below is the more of both directions, so that the model is reciprocal, as
 //             the specification has it for sheen; sheen's albedo is a fit, within 0.06; light inside is reflected by the
 //             angle outside, all of it beyond the critical one; facets have a slope of at least 0.001. As in the
-//             specification rough dielectrics and sheen give back more than arrives at grazing angles
+//             specification dielectrics, smooth ones most, and sheen give back more than arrives at grazing angles
 #pragma once
 
 #include "bsdf/bsdf.h"

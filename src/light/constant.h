@@ -12,7 +12,7 @@ struct ConstantEnvironment {
   static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f u,
                                             Mask active) {
     const Vec3f direction = warp_to_sphere(u);
-    return {fma(direction, Float(2.0f * scene.radius), reference), Float(0.25f * kInvPi), light.emission, active};
+    return {fma(direction, distance_to_lights_around(scene), reference), Float(0.25f * kInvPi), light.emission, active};
   }
 
   static NORRSKEN_INLINE Float pdf_sa(const SceneView&, const Light&, const Vec3f&, const Vec3f&, Float, Mask) {

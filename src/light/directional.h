@@ -12,7 +12,7 @@ namespace norrsken::NORRSKEN_ISA {
 struct DirectionalLight {
   static NORRSKEN_INLINE LightSample sample(const SceneView& scene, const Light& light, const Vec3f& reference, Vec2f,
                                             Mask active) {
-    return {fma(light.normal, Float(-2.0f * scene.radius), reference), 1.0f, light.emission, active};
+    return {fma(light.normal, -distance_to_lights_around(scene), reference), 1.0f, light.emission, active};
   }
 
   /// A direction found by other means never is the light's.

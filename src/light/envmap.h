@@ -136,7 +136,7 @@ struct EnvmapEnvironment {
     const Vec3f direction =
         fma(light.edge1, phi.sin * theta.sin, fma(light.edge2, theta.cos, light.normal * (-phi.cos * theta.sin)));
     const Float pdf = density(map, patch, at, theta.sin);
-    return {fma(direction, Float(2.0f * scene.radius), reference), pdf, light.emission * mix(patch.color, at),
+    return {fma(direction, distance_to_lights_around(scene), reference), pdf, light.emission * mix(patch.color, at),
             active & (pdf > 0.0f)};
   }
 

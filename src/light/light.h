@@ -7,7 +7,7 @@
 // and, if rays to nowhere see it,
 //   static SeenLight seen(const SceneView&, const Light&, const Vec3f& direction, Mask active);
 // Where lights are many they are chosen by place: light/light_tree.h.
-// Such lights put their sampled point two scene radii away, behind everything.
+// Such lights put their sampled point at distance_to_lights_around, behind everything.
 // For paths that start at the lights (src/light/emit.h):
 //   static EmittedRay emit(const SceneView&, const Light&, Vec2f position, Vec2f direction, Mask active);
 #pragma once
@@ -41,6 +41,9 @@ struct SeenLight {
   Color radiance;
   Float pdf_sa;
 };
+
+/// Where lights around the scene stand, seen from any point of it: two of its radii away.
+NORRSKEN_INLINE Float distance_to_lights_around(const SceneView& scene) { return 2.0f * scene.radius; }
 
 NORRSKEN_INLINE Light broadcast_light(const LightRecord& r) {
   return {Float(r.area),       broadcast(r.origin),         broadcast(r.edge1), broadcast(r.edge2),

@@ -11,15 +11,6 @@
 #include "medium/medium_host.h"
 
 namespace norrsken {
-namespace {
-
-constexpr ColorParameter kSigmaT{.name = "sigma_t",
-                                 .fallback = 1,
-                                 .range = kFromZero,
-                                 .text = "extinction: what is scattered and absorbed of light on a unit of length"};
-
-}  // namespace
-
 MediumRecord compile_medium_heterogeneous(Parameters& p, Media& media) {
   MediumRecord record{.sigma_t = {}, .albedo = {}};
   Volume volume;

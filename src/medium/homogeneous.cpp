@@ -14,15 +14,6 @@
 #include "medium/medium_host.h"
 
 namespace norrsken {
-namespace {
-
-constexpr ColorParameter kSigmaT{.name = "sigma_t",
-                                 .fallback = 1,
-                                 .range = kFromZero,
-                                 .text = "extinction: what is scattered and absorbed of light on a unit of length"};
-
-}  // namespace
-
 MediumRecord compile_medium_homogeneous(Parameters& p, Media& media) {
   MediumRecord record{.sigma_t = {}, .albedo = {}};
   glm::dvec3 sigma_t = p.read(kSigmaT).rgb() * p.read(kScale);

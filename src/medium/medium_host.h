@@ -8,6 +8,11 @@ namespace norrsken {
 /// More is no medium but a wall, and beyond what can be calculated with.
 inline constexpr double kMostExtinction = 1e15;
 
+inline constexpr ColorParameter kSigmaT{
+    .name = "sigma_t",
+    .fallback = 1,
+    .range = kFromZero,
+    .text = "extinction: what is scattered and absorbed of light on a unit of length"};
 inline constexpr ColorParameter kAlbedo{
     .name = "albedo",
     .fallback = 0.75,

@@ -3,6 +3,7 @@
 // Stage: TRACKS -> the same, or TRACKS again for those that are still under way.
 #pragma once
 
+#include "light/light.h"
 #include "wave/intersect_closest.h"
 #include "wave/majorants.h"
 #include "wave/medium_boundary.h"
@@ -87,8 +88,8 @@ inline void intersect_in_media(const SceneView& scene, const RoundSettings& sett
       }
       const Mask homogeneous = in_medium & !in_grid;
       if (any(homogeneous)) {
-        // A medium that nothing closes goes as far as lights around the scene are away (light/constant.h).
-        const Float to_lights_around = max(Float(2.0f * scene.radius) - hit.ray.travelled, 0.0f);
+        // A medium that nothing closes goes as far as lights around the scene are away.
+        const Float to_lights_around = max(distance_to_lights_around(scene) - hit.ray.travelled, 0.0f);
         const Float distance = select(missed, to_lights_around, hit.t);
         const Flight flight = fly(scene, hit.ray.medium, hit.ray, distance, !settings.last, u, homogeneous);
         hit.ray.throughput = select(homogeneous, flight.throughput, hit.ray.throughput);

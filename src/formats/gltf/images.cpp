@@ -5,8 +5,6 @@
 
 #include "base/text.h"
 #include "color/srgb.h"
-#include "image/channels.h"
-#include "image/texel_image.h"
 
 namespace norrsken::gltf {
 namespace {
@@ -89,18 +87,9 @@ std::shared_ptr<const ImageFile> Images::read(const Json& json) {
     if (!found) return nullptr;
     bytes = *found;
   }
-  const auto& budget = MemoryScope::current();
-  auto file = std::make_shared<ImageFile>();
-  const std::string error = read_image_contents(bytes, budget ? budget->left() : MemoryBudget::kUnlimited, file->image);
-  if (!error.empty()) return refuse(error);
-  std::vector<std::string> names;
-  for (const Channel& channel : file->image.channels) names.push_back(channel.name);
-  file->memory = MemoryReservation(sizeof(float) * names.size() * pixels_of(file->image));
-  const ColorChannels colors = color_channels(names);
-  if (colors.numbers.empty()) return refuse("it has no colours");
-  for (std::size_t c = 0; c < 3; ++c)
-    file->color[c] = &file->image.channels[colors.numbers[colors.numbers.size() == 3 ? c : 0]];
-  file->alpha = file->image.find("A");
+  std::string error;
+  const auto file = decode_image_file(bytes, error);
+  if (!file) return refuse(error);
   return result = file;
 }
 

@@ -9,16 +9,9 @@
 #include <utility>
 
 #include "formats/gltf/asset.h"
+#include "formats/image_file.h"
 
 namespace norrsken::gltf {
-
-/// An image in memory, with its part of the budget, its colours decoded from sRGB.
-struct ImageFile {
-  Image image;
-  MemoryReservation memory;
-  const Channel* color[3] = {};  ///< red, green, blue; of a grey image three times the same
-  const Channel* alpha = nullptr;
-};
 
 /// What a material says of one of its textures.
 struct TextureUse {

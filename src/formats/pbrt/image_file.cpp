@@ -1,10 +1,6 @@
 #include "formats/pbrt/image_file.h"
 
-#include <utility>
-
 #include "base/text.h"
-#include "image/channels.h"
-#include "image/texel_image.h"
 
 namespace norrsken::pbrt {
 
@@ -21,22 +17,8 @@ std::shared_ptr<const ImageFile> ImageFiles::read(const Parameter& parameter) {
   std::string error;
   const auto contents = read_counted(context_.files, path, error);
   if (!contents) return refuse(error);
-  const auto& budget = MemoryScope::current();
-  auto file = std::make_shared<ImageFile>();
-  error = read_image_contents(contents->bytes, budget ? budget->left() : MemoryBudget::kUnlimited, file->image);
-  if (!error.empty()) return refuse(error);
-  std::vector<std::string> names;
-  std::size_t values = 0;
-  for (const Channel& channel : file->image.channels) {
-    names.push_back(channel.name);
-    values += channel.values.size();
-  }
-  file->memory = MemoryReservation(sizeof(float) * values);
-  const ColorChannels colors = color_channels(names);
-  if (colors.numbers.empty()) return refuse("it has no colours");
-  for (std::size_t c = 0; c < 3; ++c)
-    file->color[c] = &file->image.channels[colors.numbers[colors.numbers.size() == 3 ? c : 0]];
-  file->alpha = file->image.find("A");
+  auto file = decode_image_file(contents->bytes, error);
+  if (!file) return refuse(error);
   known = file;
   return file;
 }

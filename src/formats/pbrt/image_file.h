@@ -1,31 +1,14 @@
 // Image files that textures and lights are made of.
 #pragma once
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <map>
 #include <memory>
 #include <string>
 
+#include "formats/image_file.h"
 #include "formats/pbrt/context.h"
 
 namespace norrsken::pbrt {
-
-/// An image in memory, with its part of the budget.
-struct ImageFile {
-  Image image;
-  MemoryReservation memory;
-  const Channel* color[3] = {};  ///< red, green, blue; of a grey image three times the same
-  const Channel* alpha = nullptr;
-
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
-  }
-  glm::dvec3 texel(int x, int y) const {
-    const std::size_t i = index(x, y);
-    return {color[0]->values[i], color[1]->values[i], color[2]->values[i]};
-  }
-};
 
 class ImageFiles {
  public:
